@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief Particles sorted by (cell, bin, id): which cells are occupied, where each bin begins, and the periodic images
+/// of the particles near a periodic face. Memory grows with occupied cells, never with the bounding box.
+#pragma once
+
+#include "spate/cells/grid.hpp"
+#include "spate/core/particles.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace spate {
+
+/// A periodic image: record n + 1 + k of a species is particle `of[k]` moved by shift `code[k]`.
+struct Images {
+    std::vector<std::int32_t> of;
+    std::vector<std::int8_t> code;           ///< base-3 digits per axis: 0 none, 1 up by a period, 2 down
+    std::vector<std::int32_t> first;         ///< first image of particle i (n + 1 entries)
+    std::vector<std::uint8_t> near_face;     ///< two bits an axis: image up, image down
+};
+
+template <int Dim>
+class Binning {
+public:
+    /// Sorts the particles by (cell, bin, id) of their present position and finds the occupied cells.
+    template <class P>
+    void sort(P& p, Grid<Dim> const& grid)
+    {
+        const std::size_t n = p.size();
+        bins_of_cell_ = grid.bins_of_cell();
+        std::vector<std::uint64_t> key(n);
+        std::vector<std::int32_t> local(n), order(n);
+        auto const& x = p.column(position);
+        for (std::size_t i = 0; i < n; ++i) {
+            Index<Dim> cell;
+            std::int32_t in_cell = 0;
+            for (int c = Dim - 1; c >= 0; --c) {
+                const std::int32_t bin = grid.bin(c, double(x[std::size_t(c)][i]));
+                cell[std::size_t(c)] = grid.cell_of(c, bin);
+                in_cell = in_cell * grid.bins_of_cell(c) + (bin - cell[std::size_t(c)] * grid.bins_of_cell(c));
+            }
+            key[i] = packed(cell);
+            if (key[i] == overflow) throw IndexOverflow(facts(p, i));
+            local[i] = in_cell;
+        }
+        find_cells(key);
+        first_.assign(cells_.size() * std::size_t(bins_of_cell_) + 1, 0);
+        std::vector<std::size_t> at(n);
+        std::uint64_t last = overflow;
+        std::int32_t c = -1;
+        for (std::size_t i = 0; i < n; ++i) {
+            if (key[i] != last) c = find(key[i]), last = key[i];
+            at[i] = std::size_t(c) * std::size_t(bins_of_cell_) + std::size_t(local[i]);
+            ++first_[at[i] + 1];
+        }
+        for (std::size_t b = 1; b < first_.size(); ++b) first_[b] += first_[b - 1];
+        std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
+        for (std::size_t i = 0; i < n; ++i) order[std::size_t(next[at[i]]++)] = std::int32_t(i);
+        auto const& id = p.id();
+        for (std::size_t b = 0; b + 1 < first_.size(); ++b)
+            std::sort(order.begin() + first_[b], order.begin() + first_[b + 1],
+                      [&](std::int32_t a, std::int32_t d) { return id[std::size_t(a)] < id[std::size_t(d)]; });
+        p.permute(order);
+        make_images(p, grid);
+    }
+
+    [[nodiscard]] std::size_t cells() const { return cells_.size(); }
+    [[nodiscard]] Index<Dim> cell(std::size_t k) const { return unpacked(cells_[k]); }
+    /// First particle of local bin b of occupied cell k; of bin b + 1 is its end.
+    [[nodiscard]] std::int32_t first(std::size_t k, int b) const
+    {
+        return first_[k * std::size_t(bins_of_cell_) + std::size_t(b)];
+    }
+    [[nodiscard]] std::int32_t begin(std::size_t k) const { return first(k, 0); }
+    [[nodiscard]] std::int32_t end(std::size_t k) const { return first_[(k + 1) * std::size_t(bins_of_cell_)]; }
+    /// Number of the occupied cell at an index, or -1.
+    [[nodiscard]] std::int32_t find(Index<Dim> const& cell) const { return find(packed(cell)); }
+    [[nodiscard]] Images const& images() const { return images_; }
+    /// Record index of the image of particle i with shift `code` (0: the particle itself).
+    [[nodiscard]] std::int32_t record_of(std::int32_t i, int code, std::size_t n) const
+    {
+        if (code == 0) return i;
+        const int near_face = images_.near_face[std::size_t(i)];
+        int slot = 0, stride = 1;
+        for (int c = 0; c < Dim; ++c, code /= 3) {
+            const int up = (near_face >> (2 * c)) & 1, down = (near_face >> (2 * c + 1)) & 1;
+            const int digit = code % 3;
+            slot += stride * (digit == 2 ? 1 + up : digit);
+            stride *= 1 + up + down;
+        }
+        return std::int32_t(n) + images_.first[std::size_t(i)] + slot; // n + 1 + first + (slot - 1)
+    }
+    [[nodiscard]] std::size_t bytes() const
+    {
+        return cells_.capacity() * 8 + first_.capacity() * 4 + table_.capacity() * 8 + images_.of.capacity() * 5 +
+               images_.first.capacity() * 4 + images_.near_face.capacity();
+    }
+
+private:
+    static constexpr std::uint64_t overflow = ~std::uint64_t(0);
+    static constexpr int bits = 21; // of a cell's index along an axis, about the origin
+
+    static std::uint64_t packed(Index<Dim> const& cell)
+    {
+        std::uint64_t key = 0;
+        for (int c = Dim - 1; c >= 0; --c) {
+            const std::int64_t i = std::int64_t(cell[std::size_t(c)]) + (1 << (bits - 1));
+            if (i < 0 || i >= (1 << bits)) return overflow;
+            key = (key << bits) | std::uint64_t(i);
+        }
+        return key;
+    }
+    static Index<Dim> unpacked(std::uint64_t key)
+    {
+        Index<Dim> cell;
+        for (int c = 0; c < Dim; ++c, key >>= bits)
+            cell[std::size_t(c)] = std::int32_t(key & ((1u << bits) - 1)) - (1 << (bits - 1));
+        return cell;
+    }
+    /// The distinct keys, in order, and an open-addressing table from key to number.
+    void find_cells(std::vector<std::uint64_t> const& key)
+    {
+        cells_.clear();
+        std::uint64_t last = overflow;
+        for (std::uint64_t k : key)
+            if (k != last) cells_.push_back(last = k);
+        std::sort(cells_.begin(), cells_.end());
+        cells_.erase(std::unique(cells_.begin(), cells_.end()), cells_.end());
+        std::size_t size = 16;
+        while (size < 2 * cells_.size()) size *= 2;
+        table_.assign(size, -1);
+        for (std::size_t c = 0; c < cells_.size(); ++c) {
+            std::size_t h = hash(cells_[c]);
+            while (table_[h] >= 0) h = (h + 1) & (table_.size() - 1);
+            table_[h] = std::int32_t(c);
+        }
+    }
+    [[nodiscard]] std::size_t hash(std::uint64_t key) const
+    {
+        return std::size_t((key * 0x9E3779B97F4A7C15u) >> 20) & (table_.size() - 1);
+    }
+    [[nodiscard]] std::int32_t find(std::uint64_t key) const
+    {
+        if (table_.empty()) return -1;
+        for (std::size_t h = hash(key); table_[h] >= 0; h = (h + 1) & (table_.size() - 1))
+            if (cells_[std::size_t(table_[h])] == key) return table_[h];
+        return -1;
+    }
+    template <class P>
+    void make_images(P const& p, Grid<Dim> const& grid)
+    {
+        images_ = {};
+        if (!grid.any_periodic()) return;
+        images_.near_face.resize(p.size());
+        images_.first.assign(1, 0);
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            std::array<std::array<int, 3>, std::size_t(Dim)> digits{};
+            std::array<int, std::size_t(Dim)> count{};
+            int face = 0, total = 1;
+            for (int c = 0; c < Dim; ++c) {
+                auto& n = count[std::size_t(c)] = 1;
+                if (grid.periodic(c)) {
+                    const std::int32_t b = grid.bin(c, double(p.column(position)[std::size_t(c)][i]));
+                    if (b < grid.per_range(c)) face |= 1 << (2 * c), digits[std::size_t(c)][std::size_t(n++)] = 1;
+                    if (b >= grid.bins(c) - grid.per_range(c))
+                        face |= 2 << (2 * c), digits[std::size_t(c)][std::size_t(n++)] = 2;
+                }
+                total *= n;
+            }
+            images_.near_face[i] = std::uint8_t(face);
+            for (int s = 1; s < total; ++s) {
+                int rest = s, code = 0, three = 1;
+                for (int c = 0; c < Dim; ++c, three *= 3) {
+                    code += three * digits[std::size_t(c)][std::size_t(rest % count[std::size_t(c)])];
+                    rest /= count[std::size_t(c)];
+                }
+                images_.of.push_back(std::int32_t(i));
+                images_.code.push_back(std::int8_t(code));
+            }
+            images_.first.push_back(std::int32_t(images_.of.size()));
+        }
+    }
+    template <class P>
+    static StopFacts facts(P const& p, std::size_t i)
+    {
+        StopFacts f;
+        f.particle = p.id()[i];
+        for (int c = 0; c < Dim; ++c) f.position[c] = double(p.column(position)[std::size_t(c)][i]);
+        f.quantity = "the cell index of its position";
+        f.limit = double(1 << (bits - 1));
+        f.value = std::numeric_limits<double>::infinity();
+        return f;
+    }
+
+    int bins_of_cell_ = 1;
+    std::vector<std::uint64_t> cells_;
+    std::vector<std::int32_t> first_{0}, table_;
+    Images images_;
+};
+
+/// The shift of an image [m].
+template <int Dim>
+Vec<Dim, double> shift_of(int code, Grid<Dim> const& grid)
+{
+    Vec<Dim, double> s{};
+    for (int c = 0; c < Dim; ++c, code /= 3) s[c] = code % 3 == 0 ? 0 : code % 3 == 1 ? grid.period(c) : -grid.period(c);
+    return s;
+}
+
+} // namespace spate

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief An axis-aligned box, its axes and its faces.
+#pragma once
+
+#include "spate/core/errors.hpp"
+#include "spate/core/vec.hpp"
+
+#include <array>
+
+namespace spate {
+
+template <int Dim>
+struct Box {
+    Vec<Dim, double> lo; ///< lower corner [m]
+    Vec<Dim, double> hi; ///< upper corner [m]
+
+    [[nodiscard]] Vec<Dim, double> size() const { return hi - lo; }
+    [[nodiscard]] bool contains(Vec<Dim, double> const& x) const
+    {
+        for (int c = 0; c < Dim; ++c)
+            if (!(x[c] >= lo[c] && x[c] <= hi[c])) return false;
+        return true;
+    }
+    [[nodiscard]] Box grown(double by) const
+    {
+        Box b = *this;
+        for (int c = 0; c < Dim; ++c) b.lo[c] -= by, b.hi[c] += by;
+        return b;
+    }
+};
+
+/// A face of a box: the lower or the upper end of an axis; the last axis points up.
+struct Face {
+    int axis;   ///< 0, 1, 2; -1: the last axis of the space
+    bool upper;
+};
+inline constexpr Face left{0, false}, right{0, true}, front{1, false}, back{1, true}, bottom{-1, false}, top{-1, true};
+inline constexpr int x_axis = 0, y_axis = 1, z_axis = 2;
+
+/// What ends space at a face.
+enum class Edge { open, wall, periodic };
+
+/// One entry for each face: faces[2 * axis + upper].
+template <int Dim>
+struct Edges {
+    std::array<Edge, std::size_t(2 * Dim)> face;
+
+    explicit Edges(Edge all) { face.fill(all); }
+    [[nodiscard]] Edge at(int axis, bool upper) const { return face[std::size_t(2 * axis + upper)]; }
+    void set(Face f, Edge e)
+    {
+        const int axis = f.axis < 0 ? Dim - 1 : f.axis;
+        if (axis >= Dim) throw BadInput("face", "axis " + std::to_string(axis), "an axis of the space");
+        face[std::size_t(2 * axis + f.upper)] = e;
+    }
+    void set_axis(int axis, Edge e)
+    {
+        set({axis, false}, e);
+        set({axis, true}, e);
+    }
+    [[nodiscard]] bool periodic(int axis) const { return at(axis, false) == Edge::periodic; }
+};
+
+/// Options of a boundary: open(top, left), periodic(x_axis).
+template <std::size_t N>
+struct OpenFaces {
+    std::array<Face, N> faces;
+};
+template <class... F>
+OpenFaces<sizeof...(F)> open(F... f)
+{
+    return {{f...}};
+}
+template <std::size_t N>
+struct PeriodicAxes {
+    std::array<int, N> axes;
+};
+template <class... A>
+PeriodicAxes<sizeof...(A)> periodic(A... a)
+{
+    return {{a...}};
+}
+template <int Dim, std::size_t N>
+void apply(Edges<Dim>& e, OpenFaces<N> const& o)
+{
+    for (Face f : o.faces) e.set(f, Edge::open);
+}
+template <int Dim, std::size_t N>
+void apply(Edges<Dim>& e, PeriodicAxes<N> const& p)
+{
+    for (int a : p.axes) e.set_axis(a, Edge::periodic);
+}
+
+} // namespace spate

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief The particles of one species: a column (SoA) for each component of each stored field, one value for a uniform
+/// field, and an id. Not a search structure: who is near whom is cells/.
+#pragma once
+
+#include "spate/core/array.hpp"
+#include "spate/core/record.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace spate {
+
+/// `Uniform{mass, 1e-3}`: one value for the whole species; no array, no place in a record. Terms do not know.
+template <Field F>
+struct Uniform {
+    F field;
+    double value; ///< in the field's unit, each component
+};
+template <Field F>
+Uniform(F, double) -> Uniform<F>;
+
+template <int Dim, Real T, class Stored, class Uniforms>
+class Particles;
+
+template <int Dim, Real T, class... F, class... U>
+class Particles<Dim, T, Fields<F...>, Fields<U...>> {
+public:
+    static constexpr int dim = Dim;
+    using real = T;
+    static constexpr Fields<F...> fields{};
+    static constexpr Fields<U...> uniform{};
+    static constexpr int padding = 32; ///< columns are whole packs, and one pack may start at the last particle
+
+    [[nodiscard]] std::size_t size() const { return id_.size(); }
+    [[nodiscard]] bool empty() const { return id_.empty(); }
+
+    /// n particles, new ones zero; ids of new ones continue from the largest.
+    void resize(std::size_t n)
+    {
+        const std::size_t old = size();
+        id_.resize(n);
+        for (std::size_t i = old; i < n; ++i) id_[i] = next_id_++;
+        for_each(fields, [&](auto f) {
+            for (auto& a : column(f)) a.resize((n + 2 * padding - 1) / padding * padding, T(0));
+        });
+    }
+    /// The Dim (or 1) columns of a field; column(f)[c][i] is component c of particle i.
+    template <Field G>
+    auto& column(G)
+    {
+        return static_cast<Column<G>&>(all_).c;
+    }
+    template <Field G>
+    auto const& column(G) const
+    {
+        return static_cast<Column<G> const&>(all_).c;
+    }
+    /// The value of a uniform field, each component.
+    template <Field G>
+    double& value(G)
+    {
+        return static_cast<One<G>&>(ones_).value;
+    }
+    template <Field G>
+    double value(G) const
+    {
+        return static_cast<One<G> const&>(ones_).value;
+    }
+    /// Whether the field is stored or uniform here.
+    template <Field G>
+    static constexpr bool has = Fields<F..., U...>::template contains<G>;
+
+    /// Field g of particle i, stored or uniform, as double.
+    template <Field G>
+    auto at(G g, std::size_t i) const
+    {
+        Value<G, Dim, double> v;
+        if constexpr (Fields<U...>::template contains<G>) {
+            if constexpr (G::rank == 0) v = value(g);
+            else
+                for (int c = 0; c < Dim; ++c) v[c] = value(g);
+        }
+        else if constexpr (G::rank == 0) v = double(column(g)[0][i]);
+        else
+            for (int c = 0; c < Dim; ++c) v[c] = double(column(g)[c][i]);
+        return v;
+    }
+    template <Field G>
+    void put(G g, std::size_t i, Value<G, Dim, double> const& v)
+    {
+        if constexpr (G::rank == 0) column(g)[0][i] = T(v);
+        else
+            for (int c = 0; c < Dim; ++c) column(g)[c][i] = T(v[c]);
+    }
+
+    template <class V, Field G>
+    [[gnu::always_inline]] Value<G, Dim, V> load_at(G g, std::size_t i) const
+    {
+        if constexpr (Fields<U...>::template contains<G>) {
+            Value<G, Dim, V> v;
+            if constexpr (G::rank == 0) v = V(value(g));
+            else
+                for (int c = 0; c < Dim; ++c) v[c] = V(value(g));
+            return v;
+        }
+        else {
+            auto const& a = column(g);
+            if constexpr (G::rank == 0) return load<V>(a[0].data() + i);
+            else {
+                Value<G, Dim, V> v;
+                for (int c = 0; c < Dim; ++c) v[c] = load<V>(a[c].data() + i);
+                return v;
+            }
+        }
+    }
+    template <class V, Field G>
+    [[gnu::always_inline]] void store_at(G g, std::size_t i, Value<G, Dim, V> const& v, int lanes = width<V>)
+    {
+        auto& a = column(g);
+        if constexpr (G::rank == 0) store_first(a[0].data() + i, v, lanes);
+        else
+            for (int c = 0; c < Dim; ++c) store_first(a[c].data() + i, v[c], lanes);
+    }
+    /// The record of particles i, i + 1, ...: contiguous loads, no transpose.
+    template <class V, class... G>
+    [[gnu::always_inline]] auto record_at(Fields<G...>, std::size_t i) const
+    {
+        Record<Dim, V, Fields<G...>> r;
+        ((r[G{}] = load_at<V>(G{}, i)), ...);
+        return r;
+    }
+    template <class V>
+    [[gnu::always_inline]] auto uniforms() const
+    {
+        Record<Dim, V, Fields<U...>> r;
+        auto one = [&]<class G>(G g) {
+            if constexpr (G::rank == 0) r[g] = V(value(g));
+            else
+                for (int c = 0; c < Dim; ++c) r[g][c] = V(value(g));
+        };
+        (one(U{}), ...);
+        return r;
+    }
+
+    [[nodiscard]] std::vector<std::uint32_t> const& id() const { return id_; }
+    /// Sets the ids; only for set-up and for input, they are unique in a species.
+    void set_ids(std::vector<std::uint32_t> id)
+    {
+        id_ = std::move(id);
+        next_id_ = id_.empty() ? 0 : *std::max_element(id_.begin(), id_.end()) + 1;
+    }
+
+    /// Particle k becomes what particle order[k] was.
+    void permute(std::vector<std::int32_t> const& order)
+    {
+        Array<T> t(order.size());
+        for_each(fields, [&](auto f) {
+            for (auto& a : column(f)) {
+                for (std::size_t k = 0; k < order.size(); ++k) t[k] = a[std::size_t(order[k])];
+                std::copy(t.begin(), t.end(), a.begin());
+            }
+        });
+        std::vector<std::uint32_t> id(order.size());
+        for (std::size_t k = 0; k < order.size(); ++k) id[k] = id_[std::size_t(order[k])];
+        id_ = std::move(id);
+        pad();
+    }
+    /// Fills the padding with copies of the last particle, so that a whole pack computes with physical values.
+    void pad()
+    {
+        if (empty()) return;
+        for_each(fields, [&](auto f) {
+            for (auto& a : column(f)) std::fill(a.begin() + std::ptrdiff_t(size()), a.end(), a[size() - 1]);
+        });
+    }
+    /// Bytes in use by columns and ids.
+    [[nodiscard]] std::size_t bytes() const
+    {
+        std::size_t b = id_.capacity() * sizeof(std::uint32_t);
+        for_each(fields, [&](auto f) {
+            for (auto const& a : column(f)) b += a.capacity() * sizeof(T);
+        });
+        return b;
+    }
+
+private:
+    template <class G>
+    struct Column {
+        Array<T> c[std::size_t(components<G, Dim>)];
+    };
+    template <class G>
+    struct One {
+        double value = 0;
+    };
+    struct All : Column<F>... {
+    } all_;
+    struct Ones : One<U>... {
+    } ones_;
+    std::vector<std::uint32_t> id_;
+    std::uint32_t next_id_ = 0;
+};
+
+} // namespace spate

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief A vector of 1 to 3 components over a scalar or a pack, for use inside terms (Eigen is the vector outside).
+/// No expression templates: `auto` is safe.
+#pragma once
+
+#include "spate/core/pack.hpp"
+
+#include <Eigen/Core>
+
+namespace spate {
+
+template <int Dim, class V>
+struct Vec {
+    static_assert(Dim >= 1 && Dim <= 3, "spate: space has 1, 2 or 3 dimensions");
+    V c[std::size_t(Dim)];
+
+    [[gnu::always_inline]] V& operator[](int k) { return c[k]; }
+    [[gnu::always_inline]] V const& operator[](int k) const { return c[k]; }
+
+    [[gnu::always_inline]] V dot(Vec const& b) const
+    {
+        if constexpr (Dim == 1) return c[0] * b.c[0];
+        else if constexpr (Dim == 2) return c[0] * b.c[0] + c[1] * b.c[1];
+        else return c[0] * b.c[0] + c[1] * b.c[1] + c[2] * b.c[2];
+    }
+    [[gnu::always_inline]] V squaredNorm() const { return dot(*this); }
+
+    // Written out, not looped: g++ then splits the vector into registers at once.
+    [[gnu::always_inline]] friend Vec operator+(Vec const& a, Vec const& b)
+    {
+        if constexpr (Dim == 1) return {{a.c[0] + b.c[0]}};
+        else if constexpr (Dim == 2) return {{a.c[0] + b.c[0], a.c[1] + b.c[1]}};
+        else return {{a.c[0] + b.c[0], a.c[1] + b.c[1], a.c[2] + b.c[2]}};
+    }
+    [[gnu::always_inline]] friend Vec operator-(Vec const& a, Vec const& b)
+    {
+        if constexpr (Dim == 1) return {{a.c[0] - b.c[0]}};
+        else if constexpr (Dim == 2) return {{a.c[0] - b.c[0], a.c[1] - b.c[1]}};
+        else return {{a.c[0] - b.c[0], a.c[1] - b.c[1], a.c[2] - b.c[2]}};
+    }
+    [[gnu::always_inline]] friend Vec operator-(Vec const& a) { return V(-1) * a; }
+    [[gnu::always_inline]] friend Vec operator*(V const& s, Vec const& a)
+    {
+        if constexpr (Dim == 1) return {{s * a.c[0]}};
+        else if constexpr (Dim == 2) return {{s * a.c[0], s * a.c[1]}};
+        else return {{s * a.c[0], s * a.c[1], s * a.c[2]}};
+    }
+    [[gnu::always_inline]] friend Vec operator*(Vec const& a, V const& s) { return s * a; }
+    [[gnu::always_inline]] Vec& operator+=(Vec const& b) { return *this = *this + b; }
+    [[gnu::always_inline]] Vec& operator-=(Vec const& b) { return *this = *this - b; }
+    /// A constant vector, the same in all lanes.
+    template <class U>
+        requires(!std::same_as<U, V> && std::is_arithmetic_v<U>)
+    [[gnu::always_inline]] Vec& operator+=(Vec<Dim, U> const& b)
+    {
+        for (int k = 0; k < Dim; ++k) c[k] += V(b.c[k]);
+        return *this;
+    }
+    bool operator==(Vec const&) const = default;
+};
+
+/// The same vector in all lanes.
+template <class V, int Dim, class T>
+[[gnu::always_inline]] inline Vec<Dim, V> broadcast(Vec<Dim, T> const& a)
+{
+    Vec<Dim, V> v;
+    for (int k = 0; k < Dim; ++k) v.c[k] = V(a.c[k]);
+    return v;
+}
+template <class M, int Dim, class V>
+[[gnu::always_inline]] inline Vec<Dim, V> where(M m, Vec<Dim, V> a, Vec<Dim, V> const& b)
+{
+    for (int k = 0; k < Dim; ++k) a.c[k] = where(m, a.c[k], b.c[k]);
+    return a;
+}
+
+/// A point or a vector of the interface: set-up, parameters, results.
+template <int Dim>
+using Point = Eigen::Matrix<double, Dim, 1>;
+
+template <int Dim>
+Vec<Dim, double> vec(Point<Dim> const& p)
+{
+    Vec<Dim, double> v;
+    for (int k = 0; k < Dim; ++k) v[k] = p[k];
+    return v;
+}
+template <int Dim>
+Point<Dim> point(Vec<Dim, double> const& v)
+{
+    Point<Dim> p;
+    for (int k = 0; k < Dim; ++k) p[k] = v[k];
+    return p;
+}
+
+} // namespace spate

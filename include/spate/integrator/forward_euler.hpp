@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief Forward Euler, kept for comparison: it creates energy at every step size on an undamped oscillator.
+#pragma once
+
+namespace spate {
+
+/// y+ = y + dt f(y). On the imaginary axis |R|^2 = 1 + z^2: grows at every dt; on the negative real axis |z| <= 2.
+struct ForwardEuler {
+    static constexpr const char* name = "forward_euler";
+    static constexpr int order = 1;
+    static constexpr int evaluations = 1;            ///< of the rates, a step
+    static constexpr bool saves = false;             ///< keeps the start of the step
+    static constexpr double imaginary_limit = 0;     ///< largest stable omega dt without damping
+    static constexpr double real_limit = 2;          ///< largest stable rate * dt of a decay
+    /// Amplitude growth less 1 over a step, of an undamped oscillation at z = omega dt.
+    static double growth(double z) { return z * z / 2; }
+
+    void step(auto& s, double dt) const
+    {
+        s.rates(s.all);
+        s.advance(s.drifting, dt); // with the velocity of the start
+        s.advance(s.kicked, dt);
+    }
+};
+
+} // namespace spate

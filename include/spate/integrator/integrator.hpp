@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief What an integrator is: it advances every evolving field by its rate, and says what it costs and bears.
+#pragma once
+
+#include <concepts>
+
+namespace spate {
+
+template <class I>
+concept Integrator = requires(double z) {
+    { I::name } -> std::convertible_to<const char*>;
+    { I::order } -> std::convertible_to<int>;              // of the global error, without contact switching
+    { I::evaluations } -> std::convertible_to<int>;        // of the rates, a step
+    { I::saves } -> std::convertible_to<bool>;             // needs the start of the step
+    { I::imaginary_limit } -> std::convertible_to<double>; // largest omega dt without growth; 0: none
+    { I::real_limit } -> std::convertible_to<double>;      // largest rate * dt of a decay
+    { I::growth(z) } -> std::convertible_to<double>;       // amplitude growth a step at omega dt = z
+};
+
+} // namespace spate

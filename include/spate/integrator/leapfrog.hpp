@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief Leapfrog: kick-drift-kick for forces of position, staggered where density drifts by a rate of its own.
+#pragma once
+
+namespace spate {
+
+/// v' = v + dt/2 a; x' = x + dt/2 v'; rho+ = rho + dt rhodot(x', v'); x+ = x' + dt/2 v'; v+ = v' + dt/2 a(x+, rho+).
+/// No growth to omega dt < 2. Without a driven field the two half drifts are one: velocity Verlet. The force at the
+/// start of a step is that of the end of the last one; continuity and momentum are two dependent sweeps.
+struct Leapfrog {
+    static constexpr const char* name = "leapfrog";
+    static constexpr int order = 2;
+    static constexpr int evaluations = 1;
+    static constexpr bool saves = false;
+    static constexpr bool carries_rates = true; ///< begins with the kick rates of the last step
+    static constexpr double imaginary_limit = 2;
+    static constexpr double real_limit = 2;
+    static double growth(double) { return 0; }
+
+    void step(auto& s, double dt) const
+    {
+        if (!s.kick_rates_current()) s.rates(s.kicked);
+        s.advance(s.kicked, dt / 2);
+        if constexpr (decltype(s.driven)::size > 0) {
+            s.advance(s.free, dt / 2);
+            s.rates(s.driven);
+            s.advance(s.driven, dt);
+            s.advance(s.free, dt / 2);
+        }
+        else s.advance(s.free, dt);
+        s.rates(s.kicked);
+        s.advance(s.kicked, dt / 2);
+        s.keep_kick_rates();
+    }
+};
+
+} // namespace spate

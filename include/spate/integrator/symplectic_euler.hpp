@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief Symplectic (semi-implicit) Euler: kick, then drift with the new velocity.
+#pragma once
+
+namespace spate {
+
+/// v+ = v + dt a(x, rho); x+ = x + dt v+, rho+ = rho + dt rhodot(x, v+). Energy stays bounded to omega dt < 2.
+/// Where a drift needs a rate (density), it is a second, dependent sweep.
+struct SymplecticEuler {
+    static constexpr const char* name = "symplectic_euler";
+    static constexpr int order = 1;
+    static constexpr int evaluations = 1;
+    static constexpr bool saves = false;
+    static constexpr double imaginary_limit = 2;
+    static constexpr double real_limit = 2;
+    static double growth(double) { return 0; }
+
+    void step(auto& s, double dt) const
+    {
+        s.rates(s.kicked);
+        s.advance(s.kicked, dt);
+        s.rates(s.driven);
+        s.advance(s.drifting, dt);
+    }
+};
+
+} // namespace spate

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief The energy of the mobile particles by part, each sum exact and so the same on any number of threads.
+#pragma once
+
+#include "spate/core/fields.hpp"
+
+namespace spate {
+
+/// [J], of all mobile particles.
+struct Energy {
+    double kinetic = 0;   ///< sum m v^2 / 2
+    double potential = 0; ///< -sum m g . x
+    double internal = 0;  ///< compressive: sum m e(rho); elastic: stored in contacts
+
+    [[nodiscard]] double total() const { return kinetic + potential + internal; }
+};
+
+/// \param s  a system    \param eos  its equation of state, or a pointer to nothing
+template <class S, class Eos, int Dim>
+Energy energy_of(S const& s, Eos const* eos, Vec<Dim, double> const& g)
+{
+    auto const& p = s.mobile();
+    using Q = std::remove_cvref_t<decltype(p)>;
+    Energy e;
+    auto mass_of = [&](std::size_t i) {
+        if constexpr (Q::template has<Mass>) return p.at(mass, i);
+        else return 1.0;
+    };
+    e.kinetic = s.sum([&](std::size_t i) { return 0.5 * mass_of(i) * p.at(velocity, i).squaredNorm(); });
+    if (g != Vec<Dim, double>{}) e.potential = s.sum([&](std::size_t i) { return -mass_of(i) * g.dot(p.at(position, i)); });
+    if constexpr (!std::is_void_v<Eos> && Q::template has<Density>)
+        e.internal = s.sum([&](std::size_t i) { return mass_of(i) * eos->energy_of(p.at(density, i)); });
+    else e.internal = s.pair_energy();
+    return e;
+}
+
+} // namespace spate

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief The interaction of discs and spheres: pairs that overlap.
+#pragma once
+
+#include "spate/core/errors.hpp"
+#include "spate/core/fields.hpp"
+
+namespace spate {
+
+/// What a term sees of a contact.
+template <int Dim, class V, class M>
+struct Contact {
+    Vec<Dim, V> n; ///< unit normal, from j to i
+    V overlap;     ///< r_i + r_j - |x_i - x_j| [m], positive in contact
+    M mask;        ///< the lanes in contact; the view applies it, terms never see it
+};
+
+/// Round particles of Dim dimensions that touch when nearer than the sum of their radii.
+template <int Dim>
+struct Round {
+    static constexpr int dim = Dim;
+    static constexpr Fields reads{position, radius};
+    double largest; ///< largest radius of the scene [m]
+
+    [[nodiscard]] double range() const { return 2 * largest; }
+    [[nodiscard]] double length() const { return largest; }
+    void check() const { require_positive("radius", largest, "m"); }
+
+    template <class V>
+    [[gnu::always_inline]] auto pair(auto const& i, auto const& j) const
+    {
+        const Vec<Dim, V> x = i[position] - j[position];
+        const V r2 = x.squaredNorm(), d = i[radius] + j[radius];
+        const V r = sqrt(r2);
+        Contact<Dim, V, decltype(r2 < r2)> ij;
+        ij.mask = r2 < d * d;
+        ij.n = (1 / r) * x;
+        ij.overlap = d - r;
+        return ij;
+    }
+};
+using Discs = Round<2>;
+using Spheres = Round<3>;
+
+} // namespace spate

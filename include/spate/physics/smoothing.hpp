@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief The interaction of smoothed particles: every pair within the kernel's support.
+#pragma once
+
+#include "spate/core/errors.hpp"
+#include "spate/core/fields.hpp"
+#include "spate/kernel/kernel.hpp"
+
+namespace spate {
+
+/// What a term sees of a pair of smoothed particles.
+template <int Dim, class V>
+struct SmoothedPair {
+    Vec<Dim, V> x;      ///< x_i - x_j [m]
+    V r2;               ///< |x|^2 [m^2]
+    V h;                ///< smoothing length [m]
+    V w;                ///< W(|x|, h) [m^-dim]
+    Vec<Dim, V> grad_w; ///< gradient of W with respect to x_i [m^-(dim+1)]
+};
+
+template <class K>
+struct Smoothing {
+    static_assert(Kernel<K>, "spate: Smoothing needs a kernel: dim, h, radius, sigma(), f(q), g(q); see kernel/kernel.hpp");
+    static constexpr int dim = K::dim;
+    static constexpr Fields reads{position};
+    K kernel;
+
+    [[nodiscard]] double range() const { return K::radius * kernel.h; }
+    /// Length of the time-step criteria [m].
+    [[nodiscard]] double length() const { return kernel.h; }
+    void check() const { require_positive("kernel.h", kernel.h, "m"); }
+
+    template <class V>
+    [[gnu::always_inline]] auto pair(auto const& i, auto const& j) const
+    {
+        SmoothedPair<dim, V> ij; // built in place: g++ keeps it in registers
+        ij.x = i[position] - j[position];
+        ij.r2 = ij.x.squaredNorm();
+        ij.h = V(kernel.h);
+        const V q = sqrt(ij.r2) * V(1 / kernel.h);
+        const V s = V(kernel.sigma());
+        ij.w = s * K::f(q);
+        ij.grad_w = (V(kernel.sigma() / (kernel.h * kernel.h)) * K::g(q)) * ij.x;
+        return ij;
+    }
+};
+
+} // namespace spate

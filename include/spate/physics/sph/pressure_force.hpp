@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief The pressure gradient by the sigma family.
+#pragma once
+
+#include "spate/core/fields.hpp"
+
+namespace spate {
+
+/// Pressure force (Monaghan 1992, eq. 3.3; sigma family of the seed):
+/// dv_i/dt = -sum_j m_j (p_i/(rho_i^sigma rho_j^(2-sigma)) + p_j/(rho_i^(2-sigma) rho_j^sigma)) grad W_ij.
+template <int Sigma>
+struct PressureForce;
+
+/// sigma = 2: dv_i/dt = -sum_j m_j (p_i/rho_i^2 + p_j/rho_j^2) grad W_ij.
+template <>
+struct PressureForce<2> {
+    static constexpr Fields reads{density, pressure};
+    static constexpr Fields reads_j{mass};
+    static constexpr Fields adds{acceleration};
+    void operator()(auto& i, auto const& j, auto const& ij) const
+    {
+        const auto f_i = i[pressure] / (i[density] * i[density]);
+        const auto f_j = j[pressure] / (j[density] * j[density]);
+        i[acceleration] -= (j[mass] * (f_i + f_j)) * ij.grad_w;
+    }
+};
+/// sigma = 1: dv_i/dt = -sum_j m_j (p_i + p_j)/(rho_i rho_j) grad W_ij.
+template <>
+struct PressureForce<1> {
+    static constexpr Fields reads{density, pressure};
+    static constexpr Fields reads_j{mass};
+    static constexpr Fields adds{acceleration};
+    void operator()(auto& i, auto const& j, auto const& ij) const
+    {
+        i[acceleration] -= (j[mass] * (i[pressure] + j[pressure]) / (i[density] * j[density])) * ij.grad_w;
+    }
+};
+
+} // namespace spate

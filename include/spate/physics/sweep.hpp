@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief The hot loop: for each block of W targets, the sums of all fused pair terms over the neighbours of each.
+/// Lanes hold targets, so each particle's sum runs over its own neighbours in order: bits do not depend on W, on the
+/// skin, or on who runs the cell.
+#pragma once
+
+#include "spate/cells/neighbours.hpp"
+#include "spate/core/term.hpp"
+#include "spate/physics/plan.hpp"
+
+#include <tuple>
+
+namespace spate {
+
+/// The records of one species as a source: record i at data + i * stride; record n is the sentinel, out of everyone's
+/// range; images follow.
+template <int Dim, Real T, class S>
+struct Packed {
+    using L = Layout<Dim, S>;
+    static constexpr S fields{};
+    Array<T> data;
+};
+
+/// One source of a sweep: its records, what is uniform in it, the lists target <- source, and the terms that read it.
+template <Mask terms_, class P, class R>
+struct Source {
+    static constexpr Mask terms = terms_;
+    using L = typename R::L;
+    P const& particles;
+    R const& packed;
+    Lists<P::dim> const& lists;
+    bool same; ///< the target's own species
+};
+
+namespace detail {
+template <Mask terms, std::size_t t>
+inline constexpr bool picked = ((terms >> t) & 1) != 0;
+
+/// One term on one pack of pairs.
+template <class Ri, class Ui, class Rj, class Uj, class A, class Pair, class T>
+[[gnu::always_inline]] inline void apply(T const& term, Ri const& ri, Ui const& ui, Rj const& rj, Uj const& uj, A& sums,
+                                         Pair const& ij)
+{
+    using Readable_i = std::remove_cvref_t<decltype(reads_i<T>())>;
+    using Readable_j = std::remove_cvref_t<decltype(reads_j<T>())>;
+    using Addable = std::remove_cvref_t<decltype(adds<T>())>;
+    const View<Readable_j, Fields<>, Rj, Uj, void> j{rj, uj, nullptr, {}};
+    if constexpr (requires { ij.mask; }) {
+        View<Readable_i, Addable, Ri, Ui, A, std::remove_cvref_t<decltype(ij.mask)>> i{ri, ui, &sums, ij.mask};
+        term(i, j, ij);
+    }
+    else {
+        View<Readable_i, Addable, Ri, Ui, A> i{ri, ui, &sums, {}};
+        term(i, j, ij);
+    }
+}
+template <Mask terms, class Ri, class Ui, class Rj, class Uj, class A, class Pair, class... T, std::size_t... t>
+[[gnu::always_inline]] inline void apply_all(std::tuple<T...> const& all, Ri const& ri, Ui const& ui, Rj const& rj,
+                                             Uj const& uj, A& sums, Pair const& ij, std::index_sequence<t...>)
+{
+    auto one = [&]<std::size_t k>(std::integral_constant<std::size_t, k>) __attribute__((always_inline))
+    {
+        if constexpr (picked<terms, k>) apply(std::get<k>(all), ri, ui, rj, uj, sums, ij);
+    };
+    (one(std::integral_constant<std::size_t, t>{}), ...);
+}
+template <class I, class V, class Ri, class Ui, class Rj, class Uj>
+[[gnu::always_inline]] inline auto pair_of(I const& interaction, Ri const& ri, Ui const& ui, Rj const& rj, Uj const& uj)
+{
+    using S = std::remove_cv_t<decltype(I::reads)>;
+    return interaction.template pair<V>(View<S, Fields<>, Ri, Ui, void>{ri, ui, nullptr, {}},
+                                        View<S, Fields<>, Rj, Uj, void>{rj, uj, nullptr, {}});
+}
+/// The neighbours of one block of targets in one source.
+template <class V, class I, class Tuple, class Ri, class Ui, class A, class Src>
+[[gnu::always_inline]] inline void over(I const& interaction, Tuple const& all, Ri const& ri, Ui const& ui, A& sums,
+                                        Src const& source, std::size_t cell, std::size_t block)
+{
+    using L = typename Src::L;
+    const auto uj = source.particles.template uniforms<V>();
+    auto const& lists = source.lists.of_cell(cell);
+    scalar_t<V> const* base = source.packed.data.data();
+    std::int32_t const* index = lists.index.data() + std::size_t(lists.begin[block]) * std::size_t(width<V>);
+    std::int32_t const* end = lists.index.data() + std::size_t(lists.begin[block + 1]) * std::size_t(width<V>);
+    for (; index != end; index += width<V>) {
+        const auto rj = gathered<V>(base, index, L{});
+        const auto ij = pair_of<I, V>(interaction, ri, ui, rj, uj);
+        if constexpr (requires { ij.mask; })
+            if (!any(ij.mask)) continue;
+        apply_all<Src::terms>(all, ri, ui, rj, uj, sums, ij, std::make_index_sequence<std::tuple_size_v<Tuple>>{});
+    }
+}
+/// Terms that count i with itself, and particle terms that add to the same sums.
+template <Mask terms, class V, class I, class Ri, class Ui, class A, class... T, std::size_t... t>
+[[gnu::always_inline]] inline void with_itself(I const& interaction, std::tuple<T...> const& all, Ri const& ri,
+                                               Ui const& ui, A& sums, std::index_sequence<t...>)
+{
+    auto one = [&]<std::size_t k>(std::integral_constant<std::size_t, k>) __attribute__((always_inline))
+    {
+        if constexpr (picked<terms, k>) {
+            auto const& term = std::get<k>(all);
+            using Tk = std::remove_cvref_t<decltype(term)>;
+            if constexpr (!PairTerm<Tk>) {
+                using Readable = std::remove_cvref_t<decltype(reads_i<Tk>())>;
+                using Addable = std::remove_cvref_t<decltype(adds<Tk>())>;
+                View<Readable, Addable, Ri, Ui, A> i{ri, ui, &sums, {}};
+                term(i);
+            }
+            else if constexpr (has_self<Tk>) {
+                apply(term, ri, ui, ri, ui, sums, pair_of<I, V>(interaction, ri, ui, ri, ui));
+            }
+        }
+    };
+    (one(std::integral_constant<std::size_t, t>{}), ...);
+}
+} // namespace detail
+
+/// Runs the picked terms on all targets of one cell: the unit of work.
+/// \tparam Sums     the fields that the terms add to
+/// \tparam Target   the fields that they read of the target
+template <class V, Mask terms, class Sums, class Target, class I, class Tuple, class P, class... Src>
+void sweep_cell(I const& interaction_, Tuple const& terms_, P& particles, Binning<P::dim> const& at, std::size_t cell,
+                Src const&... source)
+{
+    const I interaction = interaction_; // copies in this frame: parameters become invariants in registers
+    const Tuple all = terms_;
+    const auto ui = particles.template uniforms<V>();
+    const auto begin = std::size_t(at.begin(cell)), end = std::size_t(at.end(cell));
+    for (std::size_t i = begin, block = 0; i < end; i += std::size_t(width<V>), ++block) {
+        const auto ri = particles.template record_at<V>(Target{}, i);
+        Record<P::dim, V, Sums> sums;
+        clear(sums);
+        (detail::over<V>(interaction, all, ri, ui, sums, source, cell, block), ...);
+        detail::with_itself<terms, V>(interaction, all, ri, ui, sums,
+                                      std::make_index_sequence<std::tuple_size_v<Tuple>>{});
+        const int lanes = int(std::min(end - i, std::size_t(width<V>)));
+        for_each(Sums{}, [&](auto f) __attribute__((always_inline)) {
+            particles.template store_at<V>(f, i, sums[f], lanes);
+        });
+    }
+}
+
+} // namespace spate

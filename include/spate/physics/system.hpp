@@ -1,0 +1,604 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief The particles of a scene and what an integrator may ask of them: rates of a set of fields, and to advance
+/// fields by their rates. Knows no integrator, no file, no clock.
+#pragma once
+
+#include "spate/core/precision.hpp"
+#include "spate/core/reduction.hpp"
+#include "spate/physics/model.hpp"
+#include "spate/physics/sweep.hpp"
+
+#include <mutex>
+
+namespace spate {
+
+/// Largest values over the mobile particles; NaN-safe by `poison`.
+struct Extremes {
+    double speed = 0;        ///< max |v| [m/s]
+    double acceleration = 0; ///< max |a| [m/s^2]
+    double moved = 0;        ///< max |x - x_build| [m]
+    double least_density = std::numeric_limits<double>::infinity(), most_density = 0; ///< [kg/m^3]
+    double poison = 0;       ///< 0, or NaN as soon as any field of any particle is not finite
+
+    void operator|=(Extremes const& b)
+    {
+        speed = std::max(speed, b.speed);
+        acceleration = std::max(acceleration, b.acceleration);
+        moved = std::max(moved, b.moved);
+        least_density = std::min(least_density, b.least_density);
+        most_density = std::max(most_density, b.most_density);
+        poison += b.poison;
+    }
+};
+
+template <class P, class B, class Backend, class Precision>
+class System {
+public:
+    using M = Model<P, B>;
+    using T = typename Precision::real;
+    using V = typename Precision::value;
+    static constexpr int dim = M::dim;
+    static constexpr int species_count = M::species;
+    static constexpr std::size_t task = 2048; ///< particles in a task of a pass; a multiple of every pack
+
+    template <int s>
+    using ParticlesOf = Particles<dim, T, Set<M::template stored<s>()>, Set<M::template uniform<s>()>>;
+    template <int s>
+    struct Species {
+        ParticlesOf<s> particles;
+        Binning<dim> bins;
+        Packed<dim, T, Set<M::template record<s>()>> packed;
+        Particles<dim, T, Set<M::template evolving<s>()>, Fields<>> start; ///< of the step, for integrators that save
+    };
+
+    /// \param saves  whether the integrator needs the start of the step
+    System(P physics, B boundary, Backend backend, Neighbours neighbours, bool saves)
+        : physics_(std::move(physics)), boundary_(std::move(boundary)), backend_(backend), neighbours_(neighbours),
+          saves_(saves), grid_({}, Edges<dim>(Edge::open), 1, 1, 1), terms_(M::terms_of(physics_, boundary_))
+    {
+        for_each(P::uniform, [&](auto f) { mobile().value(f) = physics_.uniforms[f]; });
+    }
+
+    // ---- the particles
+    template <int s>
+    auto& species()
+    {
+        return std::get<s>(species_);
+    }
+    template <int s>
+    auto const& species() const
+    {
+        return std::get<s>(species_);
+    }
+    auto& mobile() { return species<0>().particles; }
+    auto const& mobile() const { return species<0>().particles; }
+    /// f(integral constant s) for each species.
+    void each_species(auto&& f) const
+    {
+        [&]<int... s>(std::integer_sequence<int, s...>) { (f(std::integral_constant<int, s>{}), ...); }(
+            std::make_integer_sequence<int, species_count>{});
+    }
+    [[nodiscard]] std::size_t total() const
+    {
+        std::size_t n = 0;
+        each_species([&](auto s) { n += species<s()>().particles.size(); });
+        return n;
+    }
+    P const& physics() const { return physics_; }
+    /// Parameters of the terms may change between steps; the same types, so no plan changes.
+    auto& terms() { return terms_; }
+    auto const& terms() const { return terms_; }
+    B const& boundary() const { return boundary_; }
+    Backend const& backend() const { return backend_; }
+    Grid<dim> const& grid() const { return grid_; }
+    Neighbours const& neighbours() const { return neighbours_; }
+    template <int s, int q>
+    auto const& lists() const
+    {
+        return lists_[std::size_t(s * species_count + q)];
+    }
+
+    // ---- neighbours
+    /// Wraps positions, sorts, and builds all lists from the positions of now.
+    void rebuild()
+    {
+        wrap();
+        each_species([&](auto s) {
+            auto& x = species<s()>();
+            if (s() != 0 && sorted_markers_) return;
+            x.bins.sort(x.particles, grid_);
+            if constexpr (ParticlesOf<s()>::template has<BuildPosition>)
+                for (int c = 0; c < dim; ++c)
+                    x.particles.column(build_position)[std::size_t(c)] = x.particles.column(position)[std::size_t(c)];
+        });
+        sorted_markers_ = true;
+        const double range = physics_.interaction.range(), reach = range * (1 + neighbours_.skin);
+        each_species([&](auto s) {
+            each_species([&](auto q) {
+                if constexpr (M::planner.meet(s(), q()))
+                    lists_[std::size_t(s() * species_count + q())].build(
+                        species<s()>().particles, species<s()>().bins, species<q()>().particles, species<q()>().bins,
+                        grid_, s() == q(), width<V>, reach, range, backend_);
+            });
+        });
+        have_lists_ = true;
+        ++rebuilds_;
+    }
+    /// Whether lists may miss a pair if every particle moves `ahead` [m] more.
+    [[nodiscard]] bool stale(double moved, double ahead) const
+    {
+        return !have_lists_ || !(moved + ahead <= neighbours_.moved() * physics_.interaction.range());
+    }
+    void forget_lists() { have_lists_ = false, sorted_markers_ = false, kick_rates_ = false; }
+    /// Whether the kick rates are those of the present state: an integrator may begin with them.
+    [[nodiscard]] bool kick_rates_current() const { return kick_rates_; }
+    void keep_kick_rates() { kick_rates_ = true; }
+    [[nodiscard]] bool particles_need_lists() const { return !have_lists_; }
+    [[nodiscard]] std::int64_t rebuilds() const { return rebuilds_; }
+    /// Directed pairs within range when the lists were built.
+    [[nodiscard]] std::int64_t pairs() const
+    {
+        std::int64_t n = 0;
+        for (auto const& l : lists_) n += l.pairs();
+        return n;
+    }
+    [[nodiscard]] std::int64_t evaluations() const { return evaluations_; }
+    [[nodiscard]] std::int64_t pairs_evaluated() const { return pairs_evaluated_; }
+
+    // ---- rates
+    /// Brings the rates of the asked fields up to date in every species that has them.
+    template <class... F>
+    void rates(Fields<F...>)
+    {
+        static constexpr auto plan = M::template rates_plan<Fields<F...>>();
+        run<plan>();
+        if constexpr (plan.sweeps() > 0) ++evaluations_, pairs_evaluated_ += pairs();
+    }
+    /// Brings what terms derive from the state (pressure, ...) up to date.
+    void refresh()
+    {
+        static constexpr auto plan = M::refresh_plan();
+        run<plan>();
+    }
+    template <When w>
+    void phase()
+    {
+        static constexpr auto plan = M::template phase_plan<w>();
+        run<plan>();
+    }
+    /// Fields that evolve, of one kind: all that an integrator advances.
+    template <Kind kind>
+    static constexpr auto of_kind()
+    {
+        constexpr auto first = spate::of_kind<kind>(M::template evolving<0>());
+        if constexpr (species_count == 2) return first | spate::of_kind<kind>(M::template evolving<1>());
+        else return first;
+    }
+    static constexpr auto drifting = of_kind<Kind::drift>();
+    static constexpr auto kicked = of_kind<Kind::kick>();
+    static constexpr auto all = drifting | kicked;
+    /// Drifting fields whose rate needs an evaluation (density), and those whose rate is at hand (position).
+    static constexpr auto driven = []<class... F>(Fields<F...>) {
+        auto one = []<class G>(G) {
+            constexpr Mask made = M::template made<0>;
+            constexpr bool by_terms = [] {
+                Mask m = 0;
+                if constexpr (Set<M::template stored<0>()>::template contains<G>)
+                    m |= M::mask(rate_in<G>(M::template stored<0>())) & made;
+                if constexpr (species_count == 2)
+                    if constexpr (Set<M::template stored<1>()>::template contains<G>)
+                        m |= M::mask(rate_in<G>(M::template stored<1>())) & M::template made<1>;
+                return m != 0;
+            }();
+            return detail::kept<by_terms>(G{});
+        };
+        return (Fields<>{} | ... | one(F{}));
+    }(drifting);
+    static constexpr auto free = drifting - driven;
+
+    // ---- advancing
+    /// y += dt * rate for each of the fields that evolves in a species.
+    template <class... F>
+    void advance(Fields<F...> set, double dt)
+    {
+        advance_from<false>(set, dt);
+    }
+    /// Remembers all evolving fields as the start of the step.
+    void save()
+    {
+        each_species([&](auto s) {
+            auto& x = species<s()>();
+            for_each(M::template evolving<s()>(), [&](auto f) {
+                for (std::size_t c = 0; c < std::size(x.particles.column(f)); ++c)
+                    x.start.column(f)[c] = x.particles.column(f)[c];
+            });
+        });
+    }
+    /// y = y at the start of the step + dt * rate.
+    template <class... F>
+    void advance_saved(Fields<F...> set, double dt)
+    {
+        advance_from<true>(set, dt);
+    }
+
+    // ---- measures
+    [[nodiscard]] Extremes extremes() const
+    {
+        Extremes e;
+        std::mutex lock;
+        auto const& p = mobile();
+        const std::size_t n = p.size();
+        backend_.for_each((n + task - 1) / task, [&](std::size_t k) {
+            const Extremes mine = extremes_of(k * task, std::min(n, (k + 1) * task));
+            const std::lock_guard hold(lock);
+            e |= mine;
+        });
+        return e;
+    }
+    /// The exact sum of f(i) over the mobile particles, whoever adds.
+    double sum(auto const& f) const
+    {
+        ExactSum total;
+        std::mutex lock;
+        const std::size_t n = mobile().size();
+        backend_.for_each((n + task - 1) / task, [&](std::size_t k) {
+            ExactSum mine;
+            for (std::size_t i = k * task, end = std::min(n, (k + 1) * task); i < end; ++i) mine.add(f(i));
+            const std::lock_guard hold(lock);
+            total += mine;
+        });
+        return total.value();
+    }
+    /// Half the sum over directed pairs of what the terms of contact store, energy(ij) [J]; lists must be current.
+    [[nodiscard]] double pair_energy() const
+    {
+        auto const& p = mobile();
+        auto const& images = species<0>().bins.images();
+        const std::size_t n = p.size();
+        ExactSum total;
+        std::mutex lock;
+        if constexpr (M::planner.meet(0, 0) && has_pair_energy)
+            backend_.for_each(species<0>().bins.cells(), [&](std::size_t cell) {
+                auto const& lists = this->template lists<0, 0>().of_cell(cell);
+                const auto first = std::size_t(species<0>().bins.begin(cell));
+                const auto ui = p.template uniforms<double>();
+                ExactSum mine;
+                for (std::size_t slot = 0; slot < lists.index.size(); ++slot) {
+                    const auto j = std::size_t(lists.index[slot]);
+                    if (j == n) continue;
+                    std::size_t block = 0;
+                    const std::size_t row = slot / std::size_t(width<V>);
+                    block = std::size_t(std::upper_bound(lists.begin.begin(), lists.begin.end(), std::int32_t(row)) -
+                                        lists.begin.begin()) - 1;
+                    const std::size_t i = first + block * std::size_t(width<V>) + slot % std::size_t(width<V>);
+                    auto ri = double_record(p, i), rj = double_record(p, j < n ? j : std::size_t(images.of[j - n - 1]));
+                    if (j > n) rj[position] += shift_of(images.code[j - n - 1], grid_);
+                    const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, ui, rj, ui);
+                    detail::each_in(terms_, [&](auto const& t) {
+                        if constexpr (requires { t.energy(ij); }) mine.add(0.5 * t.energy(ij));
+                    });
+                }
+                const std::lock_guard hold(lock);
+                total += mine;
+            });
+        return total.value();
+    }
+    /// Bytes of all that is kept for the particles: columns, records, lists, bins.
+    [[nodiscard]] std::size_t bytes() const
+    {
+        std::size_t b = 0;
+        each_species([&](auto s) {
+            auto const& x = species<s()>();
+            b += x.particles.bytes() + x.start.bytes() + x.bins.bytes() + x.packed.data.capacity() * sizeof(T);
+        });
+        for (auto const& l : lists_) b += l.bytes();
+        return b;
+    }
+    /// Sum modulo 2^64 over all particles of a hash of (species, id, bits of the evolving fields).
+    [[nodiscard]] std::uint64_t state_hash() const
+    {
+        std::uint64_t total = 0;
+        each_species([&](auto s) {
+            auto const& p = species<s()>().particles;
+            for (std::size_t i = 0; i < p.size(); ++i) {
+                std::uint64_t h = mix(mix(std::uint64_t(s()) + 1) + p.id()[i]);
+                for_each(M::template evolving<s()>(), [&](auto f) {
+                    for (auto const& column : p.column(f)) {
+                        std::uint64_t bits = 0;
+                        std::memcpy(&bits, &column[i], sizeof(T));
+                        h = mix(h ^ bits);
+                    }
+                });
+                total += h;
+            }
+        });
+        return total;
+    }
+    /// Makes room for the particles that have been added since.
+    void resized()
+    {
+        each_species([&](auto s) {
+            auto& x = species<s()>();
+            if (saves_) x.start.resize(x.particles.size());
+            x.particles.pad();
+        });
+        forget_lists();
+    }
+    /// The grid of bins and cells; before the first evaluation.
+    void use(Grid<dim> grid)
+    {
+        grid_ = std::move(grid);
+        forget_lists();
+    }
+    /// The sums of chosen terms on the mobile particles over one source only, without touching the rates: the force of a
+    /// wall. `finish(i, sums)` is called for each particle with the sums as double.
+    template <int source>
+    void partial_sums(auto const& finish)
+    {
+        static constexpr Mask pair_terms = [] {
+            Mask m = 0;
+            for (int t = 0; t < M::terms; ++t)
+                if (M::planner.on(t, 0) && M::planner.from(t, 0, source) && M::planner.term[std::size_t(t)].when == When::evaluation)
+                    m |= Mask(1) << t;
+            return m;
+        }();
+        auto& p = mobile();
+        constexpr auto sums = M::template fields<added(pair_terms)>();
+        Particles<dim, T, Set<sums>, Fields<>> kept;
+        kept.resize(p.size());
+        for_each(sums, [&](auto f) {
+            for (std::size_t c = 0; c < std::size(p.column(f)); ++c) kept.column(f)[c] = p.column(f)[c];
+        });
+        pack<source, M::planner.record(source)>();
+        sweep<0, pair_terms, Mask(1) << source>();
+        for (std::size_t i = 0; i < p.size(); ++i) finish(i, p);
+        for_each(sums, [&](auto f) {
+            for (std::size_t c = 0; c < std::size(p.column(f)); ++c) p.column(f)[c] = kept.column(f)[c];
+        });
+    }
+
+private:
+    using Interaction = typename M::Interaction;
+    static constexpr bool has_pair_energy = []<class... X>(std::tuple<X...> const*) {
+        return (false || ... || requires { X::stores_energy; });
+    }(static_cast<typename M::Terms const*>(nullptr));
+    static auto double_record(auto const& p, std::size_t i)
+    {
+        Record<dim, double, Set<(Interaction::reads & ParticlesOf<0>::fields)>> r;
+        for_each(r.fields, [&](auto f) { r[f] = p.at(f, i); });
+        return r;
+    }
+    static std::uint64_t mix(std::uint64_t z) // splitmix64 (Steele, Lea & Flood 2014)
+    {
+        z += 0x9E3779B97F4A7C15u;
+        z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+        z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+        return z ^ (z >> 31);
+    }
+    static constexpr Mask added(Mask terms)
+    {
+        Mask m = 0;
+        for (int t = 0; t < M::terms; ++t)
+            if (((terms >> t) & 1) != 0) m |= M::planner.term[std::size_t(t)].adds;
+        return m;
+    }
+    static constexpr Mask read_of_target(Mask terms, int s)
+    {
+        Mask m = M::planner.interaction;
+        for (int t = 0; t < M::terms; ++t)
+            if (((terms >> t) & 1) != 0) m |= M::planner.term[std::size_t(t)].reads_i;
+        return m & ~M::planner.species[std::size_t(s)].uniform;
+    }
+    static constexpr Mask reading(Mask terms, int s, int q)
+    {
+        Mask m = 0;
+        for (int t = 0; t < M::terms; ++t)
+            if (((terms >> t) & 1) != 0 && M::planner.from(t, s, q)) m |= Mask(1) << t;
+        return m;
+    }
+
+    template <auto const& plan>
+    void run()
+    {
+        [&]<std::size_t... k>(std::index_sequence<k...>) { (stage<plan.stage[k]>(), ...); }(
+            std::make_index_sequence<std::size_t(plan.count)>{});
+    }
+    template <Stage st>
+    void stage()
+    {
+        if constexpr (st.action == Action::pass) pass<st.species, st.terms, st.fields>();
+        else if constexpr (st.action == Action::pack) pack<st.species, st.fields>();
+        else sweep<st.species, st.terms, ~Mask(0)>();
+    }
+    /// f(first, last) over stretches of the padded columns of a species.
+    template <int s>
+    void stretches(auto const& f) const
+    {
+        const std::size_t n = species<s>().particles.size();
+        backend_.for_each((n + task - 1) / task, [&](std::size_t k) {
+            const std::size_t end = std::min(n, (k + 1) * task);
+            f(k * task, end);
+        });
+    }
+    template <int s, Mask terms, Mask cleared>
+    void pass()
+    {
+        stretches<s>([&](std::size_t first, std::size_t last) {
+            auto& p = species<s>().particles;
+            for (std::size_t i = first; i < last; i += std::size_t(width<V>)) {
+                for_each(M::template fields<cleared>(), [&](auto f) {
+                    using X = Value<decltype(f), dim, V>;
+                    X zero;
+                    if constexpr (decltype(f)::rank == 0) zero = V(0);
+                    else
+                        for (int c = 0; c < dim; ++c) zero[c] = V(0);
+                    p.template store_at<V>(f, i, zero);
+                });
+                detail_pass<terms>(p, i, std::make_index_sequence<std::size_t(M::terms)>{});
+            }
+        });
+    }
+    template <Mask terms, std::size_t... t>
+    [[gnu::always_inline]] void detail_pass(auto& p, std::size_t i, std::index_sequence<t...>) const
+    {
+        auto one = [&]<std::size_t k>(std::integral_constant<std::size_t, k>) __attribute__((always_inline))
+        {
+            if constexpr (((terms >> k) & 1) != 0) {
+                auto const& term = std::get<k>(terms_);
+                using Q = std::remove_cvref_t<decltype(p)>;
+                ParticleView<V, std::remove_cvref_t<decltype(term)>, Q> view{p, i};
+                term(view);
+            }
+        };
+        (one(std::integral_constant<std::size_t, t>{}), ...);
+    }
+    /// Copies fields of a species into its records; then the sentinel and the images.
+    template <int s, Mask copied>
+    void pack()
+    {
+        auto& x = species<s>();
+        using L = typename std::remove_cvref_t<decltype(x.packed)>::L;
+        auto const& images = x.bins.images();
+        const std::size_t n = x.particles.size(), records = n + 1 + images.of.size();
+        constexpr auto stride = std::size_t(L::stride);
+        if (x.packed.data.size() != records * stride) x.packed.data.assign(records * stride, T(1));
+        T* const data = x.packed.data.data();
+        stretches<s>([&](std::size_t first, std::size_t last) {
+            for_each(M::template fields<copied>(), [&]<class F>(F f) {
+                for (int c = 0; c < components<F, dim>; ++c) {
+                    T const* from = x.particles.column(f)[std::size_t(c)].data();
+                    T* to = data + std::size_t(L::template offset<F> + c);
+                    for (std::size_t i = first; i < last; ++i) to[i * stride] = from[i];
+                }
+            });
+        });
+        constexpr auto at = std::size_t(L::template offset<Position>);
+        for (std::size_t f = 0; f < stride && n > 0; ++f) data[n * stride + f] = data[f];
+        for (std::size_t c = 0; c < std::size_t(dim); ++c) data[n * stride + at + c] = T(1e12); // beyond every range
+        if (images.of.empty()) return;
+        backend_.for_each((images.of.size() + task - 1) / task, [&](std::size_t k) {
+            for (std::size_t g = k * task, end = std::min(images.of.size(), (k + 1) * task); g < end; ++g) {
+                T* const to = data + (n + 1 + g) * stride;
+                std::copy_n(data + std::size_t(images.of[g]) * stride, stride, to);
+                const Vec<dim, double> shift = shift_of(images.code[g], grid_);
+                for (int c = 0; c < dim; ++c) to[at + std::size_t(c)] += T(shift[c]);
+            }
+        });
+    }
+    template <int s, Mask terms, Mask allowed>
+    void sweep()
+    {
+        constexpr Mask from_0 = (allowed & 1) != 0 ? reading(terms, s, 0) : 0;
+        constexpr Mask from_1 = species_count == 2 && (allowed & 2) != 0 ? reading(terms, s, 1) : 0;
+        auto run_with = [&](auto const&... source) {
+            auto& x = species<s>();
+            using Sums = decltype(M::template fields<added(terms)>());
+            using Target = decltype(M::template fields<read_of_target(terms, s)>());
+            constexpr Mask itself = (allowed >> s) & 1 ? terms : Mask(0);
+            backend_.for_each(x.bins.cells(), [&](std::size_t cell) {
+                sweep_cell<V, itself, Sums, Target>(physics_.interaction, terms_, x.particles, x.bins, cell, source...);
+            });
+        };
+        if constexpr (from_0 != 0 && from_1 != 0) run_with(source<s, 0, from_0>(), source<s, 1, from_1>());
+        else if constexpr (from_0 != 0) run_with(source<s, 0, from_0>());
+        else if constexpr (from_1 != 0) run_with(source<s, 1, from_1>());
+        else run_with();
+    }
+    template <int s, int q, Mask terms>
+    auto source() const
+    {
+        auto const& x = species<q>();
+        return Source<terms, ParticlesOf<q>, std::remove_cvref_t<decltype(x.packed)>>{x.particles, x.packed, lists<s, q>(), s == q};
+    }
+    template <bool from_start, class... F>
+    void advance_from(Fields<F...> set, double dt)
+    {
+        each_species([&](auto s) {
+            constexpr auto mine = M::template evolving<s()>() & Fields<F...>{};
+            if constexpr (Set<mine>::size > 0)
+                stretches<s()>([&](std::size_t first, std::size_t last) {
+                    auto& x = species<s()>();
+                    for_each(mine, [&](auto f) {
+                        for (int c = 0; c < components<decltype(f), dim>; ++c)
+                            advance_column<from_start, s()>(x, f, std::size_t(c), first, last, T(dt));
+                    });
+                });
+        });
+        (void)set;
+    }
+    template <bool from_start, int s, Field F>
+    static void advance_column(auto& x, F f, std::size_t c, std::size_t first, std::size_t last, T dt)
+    {
+        constexpr auto rate = []<class G>(Fields<G>) { return G{}; }(rate_in<F>(M::template stored<s>()));
+        T* const y = x.particles.column(f)[c].data();
+        T const* const r = x.particles.column(rate)[c].data();
+        T const* const y0 = from_start ? x.start.column(f)[c].data() : y;
+        for (std::size_t i = first; i < last; i += std::size_t(width<V>))
+            store(y + i, V(load<V>(y0 + i) + V(dt) * load<V>(r + i)));
+    }
+    void wrap()
+    {
+        if (!grid_.any_periodic()) return;
+        auto& x = mobile().column(position);
+        for (int c = 0; c < dim; ++c)
+            if (grid_.periodic(c))
+                for (std::size_t i = 0; i < mobile().size(); ++i) {
+                    auto& value = x[std::size_t(c)][i];
+                    value = T(grid_.wrapped(c, double(value)));
+                    if (!(double(value) < grid_.box().hi[c])) value = T(grid_.box().lo[c]); // rounded up in T
+                }
+    }
+    [[nodiscard]] Extremes extremes_of(std::size_t first, std::size_t last) const
+    {
+        auto const& p = mobile();
+        using Q = ParticlesOf<0>;
+        V v2(0), a2(0), x2(0), least(std::numeric_limits<T>::max()), most(0), poison(0);
+        for (std::size_t i = first; i < last; i += std::size_t(width<V>)) {
+            const auto x = p.template load_at<V>(position, i);
+            const auto v = p.template load_at<V>(velocity, i);
+            const auto moved = x - p.template load_at<V>(build_position, i);
+            const V d2 = moved.squaredNorm(), s2 = v.squaredNorm();
+            x2 = max(d2, x2), v2 = max(s2, v2);
+            poison += V(0) * (d2 + s2);
+            if constexpr (Q::template has<Acceleration>) {
+                const V n2 = p.template load_at<V>(acceleration, i).squaredNorm();
+                a2 = max(n2, a2), poison += V(0) * n2;
+            }
+            if constexpr (Q::template has<Density>) {
+                const V rho = p.template load_at<V>(density, i);
+                least = min(rho, least), most = max(rho, most), poison += V(0) * rho;
+            }
+        }
+        Extremes e;
+        e.speed = std::sqrt(double(largest(v2)));
+        e.acceleration = std::sqrt(double(largest(a2)));
+        e.moved = std::sqrt(double(largest(x2)));
+        e.least_density = -double(largest(V(V(0) - least)));
+        e.most_density = double(largest(most));
+        alignas(64) T lane[std::size_t(width<V>)];
+        store(lane, poison);
+        for (int k = 0; k < width<V>; ++k) e.poison += double(lane[k]);
+        return e;
+    }
+
+    P physics_;
+    B boundary_;
+    Backend backend_;
+    Neighbours neighbours_;
+    bool saves_;
+    Grid<dim> grid_;
+    typename M::Terms terms_;
+    template <class S>
+    struct All;
+    template <int... s>
+    struct All<std::integer_sequence<int, s...>> {
+        using type = std::tuple<Species<s>...>;
+    };
+    typename All<std::make_integer_sequence<int, species_count>>::type species_;
+    std::array<Lists<dim>, std::size_t(species_count * species_count)> lists_;
+    bool have_lists_ = false, sorted_markers_ = false, kick_rates_ = false;
+    std::int64_t rebuilds_ = 0, evaluations_ = 0, pairs_evaluated_ = 0;
+};
+
+} // namespace spate

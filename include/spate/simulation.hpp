@@ -1,0 +1,417 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief A scene: physics, integrator, boundary and backend, put together; filled with particles and run.
+#pragma once
+
+#include "spate/backend/serial.hpp"
+#include "spate/integrator/integrator.hpp"
+#include "spate/measure/watch.hpp"
+#include "spate/physics/system.hpp"
+#include "spate/physics/time_step.hpp"
+
+#include <chrono>
+#include <functional>
+
+namespace spate {
+
+/// How long and how finely to run: `dam.run({.until = 0.9, .cfl = 0.2})`.
+struct RunOptions {
+    double until = std::numeric_limits<double>::infinity();              ///< end time [s]
+    std::int64_t steps = std::numeric_limits<std::int64_t>::max();       ///< at most so many steps in this call
+    double cfl = 0.25; ///< factor C of the time-step criteria [-]
+    double dt = 0;     ///< fixed step [s]; 0: by the criteria
+};
+
+/// What a run was like, so far.
+struct RunReport {
+    std::int64_t steps = 0;
+    double wall = 0;                ///< of the step loop, output excluded [s]
+    double cpu = 0;                 ///< of all threads in it [s]
+    double mach = 0;                ///< largest |v| / c0 [-]
+    double density_change = 0;      ///< largest |rho / rho0 - 1| [-]
+    double energy_rise = 0;         ///< largest rise of total energy over the reference [-]
+    double energy_reference = 0;    ///< [J]
+    Energy start;                   ///< at the first step
+    std::vector<std::string> warnings;
+};
+
+/// Each fluid particle at rest under the fluid above it, to the top of the filled box.
+inline constexpr struct Hydrostatic {
+} hydrostatic{};
+
+template <class P, class I, class B, class Backend = Serial, class Precision = Double, class W = Watch>
+class Simulation {
+    static_assert(Integrator<I>, "spate: the second argument of a Simulation is an integrator, such as RungeKutta2{}");
+
+public:
+    static constexpr int dim = P::dim;
+    using Engine = System<P, B, Backend, Precision>;
+    using Point = Vec<dim, double>;
+
+    Simulation(P physics, I integrator, B boundary, Backend backend = {}, Precision = {}, W watch = {},
+               Neighbours neighbours = {})
+        : integrator_(integrator), watch_(watch), system_(checked(physics, boundary, backend, neighbours), boundary,
+                                                          backend, neighbours, I::saves),
+          g_(gravity_of(physics))
+    {
+        place_markers();
+    }
+
+    // ---- particles
+    /// Fills a box with particles at the centres of cubes of edge `spacing` [m]; `start` is `hydrostatic` or is called
+    /// with (particles, i) for each new one. Returns how many.
+    template <class Start = std::nullptr_t>
+    std::size_t fill(Box<dim> const& box, double spacing, Start start = nullptr)
+    {
+        require_positive("spacing", spacing, "m");
+        Index<dim> n;
+        for (int c = 0; c < dim; ++c) {
+            const std::string edge = "box length along axis " + std::to_string(c);
+            require_positive(edge, box.size()[c], "m");
+            const double k = std::round(box.size()[c] / spacing);
+            require(k >= 1, "spacing", spacing, "at most the box length " + text(box.size()[c]) + " m");
+            require(k < 1e9, "spacing", spacing, "at least a billionth of the box length");
+            n[std::size_t(c)] = std::int32_t(k);
+        }
+        set_mass(spacing);
+        auto& p = system_.mobile();
+        const std::size_t first = p.size();
+        std::size_t count = 1;
+        for (auto k : n) count *= std::size_t(k);
+        p.resize(first + count);
+        for (std::size_t k = 0; k < count; ++k) {
+            Point x;
+            std::size_t rest = k;
+            for (int c = 0; c < dim; ++c) {
+                const auto m = std::size_t(n[std::size_t(c)]);
+                x[c] = box.lo[c] + (double(rest % m) + 0.5) * spacing;
+                rest /= m;
+            }
+            p.put(position, first + k, x);
+            begin(p, first + k, box, start);
+        }
+        if constexpr (Engine::species_count == 2) wet_markers(box, start);
+        prepare();
+        return count;
+    }
+    /// One particle; its index until the next step.
+    std::size_t add(Point const& x, Point const& v = {})
+    {
+        auto& p = system_.mobile();
+        const std::size_t i = p.size();
+        p.resize(i + 1);
+        p.put(position, i, x);
+        begin(p, i, Box<dim>{x, x}, nullptr);
+        p.put(velocity, i, v);
+        prepared_ = false;
+        return i;
+    }
+    /// Tells the scene that particles were changed by hand.
+    void prepare()
+    {
+        check_particles();
+        system_.use(make_grid());
+        system_.resized();
+        prepared_ = true;
+    }
+
+    // ---- running
+    /// Steps until the end time or the number of steps; outputs have begin(sim), step(sim), end(sim).
+    template <class... Output>
+    RunReport const& run(RunOptions const& o, Output&&... output)
+    {
+        check(o);
+        if (!prepared_) prepare();
+        begin_run(o);
+        (output.begin(*this), ...);
+        const std::int64_t last = o.steps > std::numeric_limits<std::int64_t>::max() - step_ ? o.steps : step_ + o.steps;
+        try {
+            while (time_ < o.until && step_ < last && !interrupted_()) {
+                step(o);
+                (output.step(*this), ...);
+            }
+            if constexpr (W::on) final_look();
+        }
+        catch (Stop const&) {
+            (output.end(*this), ...);
+            throw;
+        }
+        (output.end(*this), ...);
+        return report_;
+    }
+    /// One step.
+    void step(RunOptions const& o)
+    {
+        if (!prepared_) prepare();
+        const auto wall = std::chrono::steady_clock::now();
+        const std::clock_t cpu = std::clock();
+        const Extremes e = system_.extremes();
+        look(e);
+        choose_dt(o, e);
+        if (system_.stale(e.moved, dt_ * (e.speed + dt_ * e.acceleration))) {
+            if constexpr (W::on)
+                stop_if_outside(system_.mobile(), system_.boundary(), physics().interaction.range(), step_, time_);
+            rebuild();
+        }
+        system_.template phase<When::before_step>();
+        integrator_.step(system_, dt_);
+        system_.template phase<When::after_step>();
+        time_ += dt_;
+        ++step_;
+        ++report_.steps;
+        report_.cpu += double(std::clock() - cpu) / CLOCKS_PER_SEC;
+        report_.wall += std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
+    }
+    /// Asked before each step: true ends the run after the step in hand.
+    void interrupt_when(std::function<bool()> f) { interrupted_ = std::move(f); }
+
+    // ---- what is known
+    [[nodiscard]] double time() const { return time_; }
+    [[nodiscard]] double dt() const { return dt_; }
+    [[nodiscard]] std::string_view criterion() const { return criterion_; }
+    [[nodiscard]] std::int64_t steps() const { return step_; }
+    [[nodiscard]] RunReport const& report() const { return report_; }
+    P const& physics() const { return system_.physics(); }
+    I const& integrator() const { return integrator_; }
+    Engine& system() { return system_; }
+    Engine const& system() const { return system_; }
+    auto& particles() { return system_.mobile(); }
+    auto const& particles() const { return system_.mobile(); }
+    Vec<dim, double> const& gravity() const { return g_; }
+    /// Brings pressure and other derived fields up to date with the state.
+    void refresh()
+    {
+        if (!prepared_) prepare();
+        if (system_.particles_need_lists()) rebuild();
+        system_.refresh();
+    }
+    [[nodiscard]] Energy energy() const
+    {
+        if constexpr (has_equation_of_state<P>) return energy_of(system_, &equation_of_state(physics()), g_);
+        else return energy_of(system_, static_cast<void const*>(nullptr), g_);
+    }
+    [[nodiscard]] std::uint64_t state_hash() const { return system_.state_hash(); }
+
+private:
+    static P const& checked(P const& physics, B const& boundary, Backend const& backend, Neighbours const& n)
+    {
+        physics.check();
+        backend.check();
+        n.check();
+        boundary.check(physics.interaction.range() * (1 + n.skin));
+        require(backend.cell >= 0 && backend.cell <= 32, "cell", backend.cell, "0 (by dimension), or 1 to 32 ranges");
+        return physics;
+    }
+    static void check(RunOptions const& o)
+    {
+        require(!std::isnan(o.until) && o.until >= 0, "until", o.until, "0 or above [s]");
+        require_non_negative("dt", o.dt, "s");
+        require(o.cfl > 0 && o.cfl <= 10, "cfl", o.cfl, "above 0 and at most 10");
+        require(o.steps >= 0, "steps", double(o.steps), "0 or above");
+    }
+    /// Mass from the spacing, where mass is uniform and follows from a reference density.
+    void set_mass(double spacing)
+    {
+        if constexpr (has_equation_of_state<P> && Set<P::uniform>::template contains<Mass>) {
+            const double m = equation_of_state(physics()).rho0 * std::pow(spacing, dim);
+            auto& mine = system_.mobile().value(mass);
+            require(mine == 0 || std::abs(m / mine - 1) < 1e-12, "spacing", spacing,
+                    "the spacing of the first fill: mass is uniform");
+            mine = m;
+            if constexpr (Engine::species_count == 2) system_.template species<1>().particles.value(mass) = m;
+        }
+    }
+    template <class Particles, class Start>
+    void begin(Particles& p, std::size_t i, [[maybe_unused]] Box<dim> const& box, [[maybe_unused]] Start start)
+    {
+        if constexpr (has_equation_of_state<P> && Particles::template has<Density>)
+            p.put(density, i, equation_of_state(physics()).rho0);
+        if constexpr (std::same_as<Start, Hydrostatic>) {
+            static_assert(has_equation_of_state<P>, "spate: hydrostatic needs an equation of state in the model");
+            double depth = std::numeric_limits<double>::infinity(); // g z below the top of the box, against gravity
+            const Point x = p.at(position, i);
+            double gz = 0;
+            for (int c = 0; c < dim; ++c) gz += g_[c] * (x[c] - (g_[c] < 0 ? box.hi[c] : box.lo[c]));
+            depth = gz;
+            p.put(density, i, equation_of_state(physics()).hydrostatic_density(std::max(0.0, depth)));
+        }
+        else if constexpr (!std::same_as<Start, std::nullptr_t>) start(p, i);
+    }
+    void place_markers()
+    {
+        if constexpr (Engine::species_count == 2) {
+            auto& p = system_.template species<1>().particles;
+            std::vector<Point> x;
+            system_.boundary().place(physics().interaction.range(), [&](Point const& at) { x.push_back(at); });
+            p.resize(x.size());
+            for (std::size_t i = 0; i < x.size(); ++i) {
+                p.put(position, i, x[i]);
+                begin(p, i, Box<dim>{x[i], x[i]}, nullptr);
+            }
+            set_mass(system_.boundary().spacing());
+        }
+    }
+    /// Markers whose density is a state start at that of the fluid before them.
+    template <class Start>
+    void wet_markers([[maybe_unused]] Box<dim> const& box, [[maybe_unused]] Start start)
+    {
+        if constexpr (std::same_as<Start, Hydrostatic>) {
+            auto& p = system_.template species<1>().particles;
+            const Box<dim> near = box.grown(physics().interaction.range());
+            for (std::size_t i = 0; i < p.size(); ++i)
+                if (near.contains(p.at(position, i))) begin(p, i, box, start);
+        }
+    }
+    void check_particles() const
+    {
+        auto const& p = system_.mobile();
+        using Q = std::remove_cvref_t<decltype(p)>;
+        const std::size_t i = detail::first_by_id(p, [&](std::size_t k) {
+            bool bad = false;
+            for_each(Q::fields & Fields{position, velocity, density}, [&](auto f) {
+                for (auto const& a : p.column(f)) bad = bad || !std::isfinite(double(a[k]));
+            });
+            if constexpr (Q::template has<Density> && !Set<Q::uniform>::template contains<Density>)
+                bad = bad || !(p.at(density, k) > 0);
+            return bad;
+        });
+        if (i == p.size()) return;
+        const auto [name, value] = detail::not_finite(p, i);
+        if (name.empty()) throw BadInput("density of particle " + std::to_string(p.id()[i]), text(p.at(density, i)), "above 0");
+        throw BadInput(name + " of particle " + std::to_string(p.id()[i]), text(value), "a finite number");
+    }
+    Grid<dim> make_grid() const
+    {
+        const int by_dimension[] = {64, 8, 4};
+        const int cell = system_.backend().cell > 0 ? system_.backend().cell : by_dimension[dim - 1];
+        auto box = system_.boundary().template box<dim>();
+        if (!box) {
+            Point lo{};
+            auto const& p = system_.mobile();
+            for (std::size_t i = 0; i < p.size(); ++i)
+                for (int c = 0; c < dim; ++c) lo[c] = i == 0 ? p.at(position, i)[c] : std::min(lo[c], p.at(position, i)[c]);
+            box = Box<dim>{lo, lo};
+        }
+        auto const& n = system_.neighbours();
+        return Grid<dim>(*box, system_.boundary().template edges<dim>(), physics().interaction.range() * n.bin_edge(), n.finer,
+                         cell);
+    }
+    void rebuild()
+    {
+        try {
+            system_.rebuild();
+        }
+        catch (IndexOverflow const& e) {
+            StopFacts f = e.facts();
+            f.step = step_, f.time = time_;
+            throw IndexOverflow(f);
+        }
+    }
+    void begin_run(RunOptions const& o)
+    {
+        if (step_ > 0) return;
+        double m = 0;
+        if constexpr (Set<P::uniform>::template contains<Mass>) m = system_.mobile().value(mass);
+        stiffness_ = stiffness_of(physics(), m);
+        if (o.dt > 0) return;
+        const TimeStep t = time_step(stiffness_, o.cfl, 0, std::sqrt(g_.squaredNorm()));
+        require(std::isfinite(t.dt), "dt", o.dt, "above 0: the model has no criterion that bounds the step");
+    }
+    void choose_dt(RunOptions const& o, Extremes const& e)
+    {
+        if (step_ == 0) begin_run(o);
+        TimeStep t;
+        if (o.dt > 0) t = {o.dt, "fixed"};
+        else {
+            t = time_step(stiffness_, o.cfl, e.speed, std::max(e.acceleration, std::sqrt(g_.squaredNorm())));
+            if (step_ > 0) t.bound(1.1 * free_dt_, "growth");
+            if (step_ == 0) first_dt_ = t.dt;
+            if (t.dt < 1e-3 * first_dt_) stop_dt(t.dt);
+        }
+        free_dt_ = t.dt;
+        if (time_ + t.dt * (1 + 1e-9) >= o.until) t.bound(o.until - time_, "end");
+        dt_ = t.dt, criterion_ = t.criterion;
+    }
+    [[noreturn]] void stop_dt(double dt) const
+    {
+        StopFacts f;
+        f.step = step_, f.time = time_, f.quantity = "dt [s]", f.value = dt, f.limit = 1e-3 * first_dt_;
+        throw DtCollapse(f);
+    }
+    void look(Extremes const& e)
+    {
+        if constexpr (has_equation_of_state<P>) {
+            auto const& eos = equation_of_state(physics());
+            report_.mach = std::max(report_.mach, e.speed / eos.c0);
+            if (e.most_density > 0)
+                report_.density_change = std::max({report_.density_change, e.most_density / eos.rho0 - 1,
+                                                   1 - e.least_density / eos.rho0});
+        }
+        if constexpr (W::on) {
+            if (e.poison != 0) stop_if_not_finite(system_.mobile(), step_, time_);
+            if (step_ % watch_.energy_every == 0) look_at_energy();
+        }
+    }
+    void final_look()
+    {
+        look(system_.extremes());
+        stop_if_outside(system_.mobile(), system_.boundary(), physics().interaction.range(), step_, time_);
+    }
+    /// A body force along a periodic axis is a source of energy: there is no potential to compare with.
+    [[nodiscard]] bool has_source() const
+    {
+        const auto edges = system_.boundary().template edges<dim>();
+        for (int c = 0; c < dim; ++c)
+            if (g_[c] != 0 && edges.periodic(c)) return true;
+        return false;
+    }
+    void look_at_energy()
+    {
+        if (has_source() || system_.particles_need_lists()) return;
+        const Energy e = energy();
+        if (report_.energy_reference == 0) {
+            report_.start = e;
+            report_.energy_reference = reference(e);
+        }
+        if (report_.energy_reference == 0) return;
+        const double rise = (e.total() - report_.start.total()) / report_.energy_reference;
+        report_.energy_rise = std::max(report_.energy_rise, rise);
+        if (rise > watch_.warn && !warned_) {
+            warned_ = true;
+            report_.warnings.push_back("total energy has risen by " + text(100 * rise) + " % of its reference at step " +
+                                       std::to_string(step_) + ", t = " + text(time_) + " s");
+        }
+        if (!(rise <= watch_.stop)) {
+            StopFacts f;
+            f.step = step_, f.time = time_, f.quantity = "the rise of total energy over its reference";
+            f.value = rise, f.limit = watch_.stop;
+            throw EnergyRunaway(f);
+        }
+    }
+    /// Kinetic and stored energy at the start, or that of the fastest flow that the speed of sound was chosen for, c0/10.
+    [[nodiscard]] double reference(Energy const& e) const
+    {
+        double r = e.kinetic;
+        if constexpr (has_equation_of_state<P>) {
+            const double u = equation_of_state(physics()).c0 / 10;
+            auto const& p = system_.mobile();
+            r = std::max(r, 0.5 * u * u * system_.sum([&](std::size_t i) { return p.at(mass, i); }));
+        }
+        else r += e.internal;
+        return r;
+    }
+
+    I integrator_;
+    W watch_;
+    Engine system_;
+    Vec<dim, double> g_;
+    Stiffness stiffness_;
+    RunReport report_;
+    std::function<bool()> interrupted_ = [] { return false; };
+    double time_ = 0, dt_ = 0, free_dt_ = 0, first_dt_ = 0;
+    std::string_view criterion_ = "none";
+    std::int64_t step_ = 0;
+    bool prepared_ = false, warned_ = false;
+};
+
+} // namespace spate

@@ -1,0 +1,36 @@
+# Installs spate (or takes its folder), then configures, builds and runs the consumer, each outside the tree.
+cmake_minimum_required(VERSION 3.25)
+function(run)
+    execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+    if(NOT result EQUAL 0)
+        message(FATAL_ERROR "failed (${result}): ${ARGV}\n${output}")
+    endif()
+    set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE ${SCRATCH})
+file(COPY ${CONSUMER}/ DESTINATION ${SCRATCH}/source)
+if(WAY STREQUAL "installed")
+    run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${SCRATCH}/prefix)
+    set(where -D CMAKE_PREFIX_PATH=${SCRATCH}/prefix)
+else()
+    set(where -D SPATE_FOLDER=${SPATE})
+endif()
+run(${CMAKE_COMMAND} -S ${SCRATCH}/source -B ${SCRATCH}/build -G ${GENERATOR} ${where} -D CMAKE_BUILD_TYPE=Release
+    -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_C_COMPILER=${C_COMPILER} -D CMAKE_CXX_FLAGS=${FLAGS})
+run(${CMAKE_COMMAND} --build ${SCRATCH}/build)
+run(${SCRATCH}/build/consumer)
+message("${output}")
+
+# The tests and tools of spate must not follow it into a user's project.
+if(EXISTS ${SCRATCH}/build/spate/tests)
+    message(FATAL_ERROR "add_subdirectory(spate) brought the tests of spate along")
+endif()
+# No file of the installation may name the tree that it came from.
+file(GLOB_RECURSE files ${SCRATCH}/prefix/lib*/cmake/*)
+foreach(file IN LISTS files)
+    file(STRINGS ${file} lines REGEX "${SPATE}")
+    if(lines)
+        message(FATAL_ERROR "${file} names the source tree: ${lines}")
+    endif()
+endforeach()

@@ -1,0 +1,2 @@
+// expect: spate: never said
+int main() {}

@@ -1,0 +1,3 @@
+#include <spate/spate.hpp>
+
+int main() {}
