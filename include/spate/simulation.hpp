@@ -16,22 +16,22 @@ namespace spate {
 
 /// How long and how finely to run: `dam.run({.until = 0.9, .cfl = 0.2})`.
 struct RunOptions {
-    double until = std::numeric_limits<double>::infinity();              ///< end time [s]
-    std::int64_t steps = std::numeric_limits<std::int64_t>::max();       ///< at most so many steps in this call
-    double cfl = 0.25; ///< factor C of the time-step criteria [-]
-    double dt = 0;     ///< fixed step [s]; 0: by the criteria
+    double until = std::numeric_limits<double>::infinity();        ///< end time [s]
+    std::int64_t steps = std::numeric_limits<std::int64_t>::max(); ///< at most so many steps in this call
+    double cfl = 0.25;                                             ///< factor C of the time-step criteria [-]
+    double dt = 0;                                                 ///< fixed step [s]; 0: by the criteria
 };
 
 /// What a run was like, so far.
 struct RunReport {
     std::int64_t steps = 0;
-    double wall = 0;                ///< of the step loop, output excluded [s]
-    double cpu = 0;                 ///< of all threads in it [s]
-    double mach = 0;                ///< largest |v| / c0 [-]
-    double density_change = 0;      ///< largest |rho / rho0 - 1| [-]
-    double energy_rise = 0;         ///< largest rise of total energy over the reference [-]
-    double energy_reference = 0;    ///< [J]
-    Energy start;                   ///< at the first step
+    double wall = 0;             ///< of the step loop, output excluded [s]
+    double cpu = 0;              ///< of all threads in it [s]
+    double mach = 0;             ///< largest |v| / c0 [-]
+    double density_change = 0;   ///< largest |rho / rho0 - 1| [-]
+    double energy_rise = 0;      ///< largest rise of total energy over the reference [-]
+    double energy_reference = 0; ///< [J]
+    Energy start;                ///< at the first step
     std::vector<std::string> warnings;
 };
 
@@ -50,8 +50,8 @@ public:
 
     Simulation(P physics, I integrator, B boundary, Backend backend = {}, Precision = {}, W watch = {},
                Neighbours neighbours = {})
-        : integrator_(integrator), watch_(watch), system_(checked(physics, boundary, backend, neighbours), boundary,
-                                                          backend, neighbours, I::saves),
+        : integrator_(integrator), watch_(watch),
+          system_(checked(physics, boundary, backend, neighbours), boundary, backend, neighbours, I::saves),
           g_(gravity_of(physics))
     {
         place_markers();
@@ -116,6 +116,14 @@ public:
     }
 
     // ---- running
+    /// Throws BadInput for the first option out of range; run() asks too.
+    static void check(RunOptions const& o)
+    {
+        require(!std::isnan(o.until) && o.until >= 0, "until", o.until, "0 or above [s]");
+        require_non_negative("dt", o.dt, "s");
+        require(o.cfl > 0 && o.cfl <= 10, "cfl", o.cfl, "above 0 and at most 10");
+        require(o.steps >= 0, "steps", double(o.steps), "0 or above");
+    }
     /// Steps until the end time or the number of steps; outputs have begin(sim), step(sim), end(sim).
     template <class... Output>
     RunReport const& run(RunOptions const& o, Output&&... output)
@@ -124,7 +132,8 @@ public:
         if (!prepared_) prepare();
         begin_run(o);
         (output.begin(*this), ...);
-        const std::int64_t last = o.steps > std::numeric_limits<std::int64_t>::max() - step_ ? o.steps : step_ + o.steps;
+        const std::int64_t last =
+            o.steps > std::numeric_limits<std::int64_t>::max() - step_ ? o.steps : step_ + o.steps;
         try {
             while (time_ < o.until && step_ < last && !interrupted_()) {
                 step(o);
@@ -133,6 +142,7 @@ public:
             if constexpr (W::on) final_look();
         }
         catch (Stop const&) {
+            stopped_ = true;
             (output.end(*this), ...);
             throw;
         }
@@ -148,11 +158,13 @@ public:
         const Extremes e = system_.extremes();
         look(e);
         choose_dt(o, e);
-        if (system_.stale(e.moved, dt_ * (e.speed + dt_ * e.acceleration))) {
+        if (system_.stale(e, I::ahead_velocity * dt_, I::ahead_acceleration * dt_ * dt_)) {
             if constexpr (W::on)
                 stop_if_outside(system_.mobile(), system_.boundary(), physics().interaction.range(), step_, time_);
             rebuild();
         }
+        if constexpr (W::on)
+            if (step_ % watch_.energy_every == 0) look_at_energy();
         system_.template phase<When::before_step>();
         integrator_.step(system_, dt_);
         system_.template phase<When::after_step>();
@@ -181,14 +193,32 @@ public:
     /// Brings pressure and other derived fields up to date with the state.
     void refresh()
     {
-        if (!prepared_) prepare();
-        if (system_.particles_need_lists()) rebuild();
+        if (stopped_) return;
+        make_lists_current();
         system_.refresh();
     }
+    /// Rebuilds the neighbour lists if the positions of now need it: the next step would begin with the same rebuild.
+    void make_lists_current()
+    {
+        if (!prepared_) prepare();
+        if (system_.stale(system_.extremes(), 0, 0)) rebuild();
+    }
+    /// Whether a Stop has ended the run: the state is left as it was found, and nothing brings it up to date.
+    [[nodiscard]] bool stopped() const { return stopped_; }
+    /// Of the mobile particles; lists must be current where contacts store energy.
     [[nodiscard]] Energy energy() const
     {
         if constexpr (has_equation_of_state<P>) return energy_of(system_, &equation_of_state(physics()), g_);
         else return energy_of(system_, static_cast<void const*>(nullptr), g_);
+    }
+    /// sum m v over the mobile particles [kg m/s], each component exact.
+    [[nodiscard]] Point momentum() const
+    {
+        auto const& p = system_.mobile();
+        Point total;
+        for (int c = 0; c < dim; ++c)
+            total[c] = system_.sum([&](std::size_t i) { return p.at(mass, i) * p.at(velocity, i)[c]; });
+        return total;
     }
     [[nodiscard]] std::uint64_t state_hash() const { return system_.state_hash(); }
 
@@ -201,13 +231,6 @@ private:
         boundary.check(physics.interaction.range() * (1 + n.skin));
         require(backend.cell >= 0 && backend.cell <= 32, "cell", backend.cell, "0 (by dimension), or 1 to 32 ranges");
         return physics;
-    }
-    static void check(RunOptions const& o)
-    {
-        require(!std::isnan(o.until) && o.until >= 0, "until", o.until, "0 or above [s]");
-        require_non_negative("dt", o.dt, "s");
-        require(o.cfl > 0 && o.cfl <= 10, "cfl", o.cfl, "above 0 and at most 10");
-        require(o.steps >= 0, "steps", double(o.steps), "0 or above");
     }
     /// Mass from the spacing, where mass is uniform and follows from a reference density.
     void set_mass(double spacing)
@@ -268,17 +291,24 @@ private:
         using Q = std::remove_cvref_t<decltype(p)>;
         const std::size_t i = detail::first_by_id(p, [&](std::size_t k) {
             bool bad = false;
-            for_each(Q::fields & Fields{position, velocity, density}, [&](auto f) {
+            for_each(Q::fields & Fields{position, velocity, density, mass, radius}, [&](auto f) {
                 for (auto const& a : p.column(f)) bad = bad || !std::isfinite(double(a[k]));
             });
-            if constexpr (Q::template has<Density> && !Set<Q::uniform>::template contains<Density>)
-                bad = bad || !(p.at(density, k) > 0);
             return bad;
         });
-        if (i == p.size()) return;
-        const auto [name, value] = detail::not_finite(p, i);
-        if (name.empty()) throw BadInput("density of particle " + std::to_string(p.id()[i]), text(p.at(density, i)), "above 0");
-        throw BadInput(name + " of particle " + std::to_string(p.id()[i]), text(value), "a finite number");
+        if (i < p.size()) {
+            const auto [name, value] = detail::not_finite(p, i);
+            throw BadInput(name + " of particle " + std::to_string(p.id()[i]), text(value), "a finite number");
+        }
+        for_each(Q::fields & Fields{density, mass}, [&]<class F>(F f) {
+            const std::size_t k = detail::first_by_id(p, [&](std::size_t j) { return !(p.at(f, j) > 0); });
+            if (k < p.size())
+                throw BadInput(std::string(F::name) + " of particle " + std::to_string(p.id()[k]), text(p.at(f, k)),
+                               "above 0");
+        });
+        if constexpr (Set<Q::uniform>::template contains<Mass>)
+            require(p.empty() || p.value(mass) > 0, "mass", p.value(mass),
+                    "above 0 [kg]; the spacing of a fill sets it");
     }
     Grid<dim> make_grid() const
     {
@@ -289,12 +319,13 @@ private:
             Point lo{};
             auto const& p = system_.mobile();
             for (std::size_t i = 0; i < p.size(); ++i)
-                for (int c = 0; c < dim; ++c) lo[c] = i == 0 ? p.at(position, i)[c] : std::min(lo[c], p.at(position, i)[c]);
+                for (int c = 0; c < dim; ++c)
+                    lo[c] = i == 0 ? p.at(position, i)[c] : std::min(lo[c], p.at(position, i)[c]);
             box = Box<dim>{lo, lo};
         }
         auto const& n = system_.neighbours();
-        return Grid<dim>(*box, system_.boundary().template edges<dim>(), physics().interaction.range() * n.bin_edge(), n.finer,
-                         cell);
+        return Grid<dim>(*box, system_.boundary().template edges<dim>(), physics().interaction.range() * n.bin_edge(),
+                         n.finer, cell);
     }
     void rebuild()
     {
@@ -303,7 +334,7 @@ private:
         }
         catch (IndexOverflow const& e) {
             StopFacts f = e.facts();
-            f.step = step_, f.time = time_;
+            f.step = step_, f.time = time_, f.species = 0; // markers stand still
             throw IndexOverflow(f);
         }
     }
@@ -344,17 +375,18 @@ private:
             auto const& eos = equation_of_state(physics());
             report_.mach = std::max(report_.mach, e.speed / eos.c0);
             if (e.most_density > 0)
-                report_.density_change = std::max({report_.density_change, e.most_density / eos.rho0 - 1,
-                                                   1 - e.least_density / eos.rho0});
+                report_.density_change =
+                    std::max({report_.density_change, e.most_density / eos.rho0 - 1, 1 - e.least_density / eos.rho0});
         }
         if constexpr (W::on) {
             if (e.poison != 0) stop_if_not_finite(system_.mobile(), step_, time_);
-            if (step_ % watch_.energy_every == 0) look_at_energy();
         }
     }
     void final_look()
     {
         look(system_.extremes());
+        make_lists_current();
+        look_at_energy();
         stop_if_outside(system_.mobile(), system_.boundary(), physics().interaction.range(), step_, time_);
     }
     /// A body force along a periodic axis is a source of energy: there is no potential to compare with.
@@ -367,7 +399,7 @@ private:
     }
     void look_at_energy()
     {
-        if (has_source() || system_.particles_need_lists()) return;
+        if (has_source()) return;
         const Energy e = energy();
         if (report_.energy_reference == 0) {
             report_.start = e;
@@ -378,8 +410,9 @@ private:
         report_.energy_rise = std::max(report_.energy_rise, rise);
         if (rise > watch_.warn && !warned_) {
             warned_ = true;
-            report_.warnings.push_back("total energy has risen by " + text(100 * rise) + " % of its reference at step " +
-                                       std::to_string(step_) + ", t = " + text(time_) + " s");
+            report_.warnings.push_back("total energy has risen by " + text(100 * rise) +
+                                       " % of its reference at step " + std::to_string(step_) + ", t = " + text(time_) +
+                                       " s");
         }
         if (!(rise <= watch_.stop)) {
             StopFacts f;
@@ -411,7 +444,7 @@ private:
     double time_ = 0, dt_ = 0, free_dt_ = 0, first_dt_ = 0;
     std::string_view criterion_ = "none";
     std::int64_t step_ = 0;
-    bool prepared_ = false, warned_ = false;
+    bool prepared_ = false, warned_ = false, stopped_ = false;
 };
 
 } // namespace spate

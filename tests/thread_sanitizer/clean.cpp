@@ -11,7 +11,7 @@ int main()
 #pragma omp for schedule(dynamic, 64)
             for (int i = 0; i < 100000; ++i) a[i] += 0.5 * i;
 #pragma omp for reduction(+ : sum)
-            for (int i = 0; i < 100000; ++i) sum += a[99999 - i];  // written by another thread, before a barrier
+            for (int i = 0; i < 100000; ++i) sum += a[99999 - i]; // written by another thread, before a barrier
 #pragma omp single
             a[0] = round;
 #pragma omp for reduction(+ : sum)

@@ -40,8 +40,8 @@ struct AdamiState {
     static constexpr Fields writes{pressure, density};
     static constexpr Between between{Role::marker, Role::any};
     E eos;
-    double least_sum;   ///< kernel sum below which a marker sees nothing [1/m^dim]
-    double least;       ///< lower bound of the pressure [Pa]; -inf: none
+    double least_sum; ///< kernel sum below which a marker sees nothing [1/m^dim]
+    double least;     ///< lower bound of the pressure [Pa]; -inf: none
 
     void operator()(auto& i) const
     {

@@ -58,6 +58,8 @@ public:
         for (int c = 0; c < Dim; ++c) n *= bins_of_cell(c);
         return n;
     }
+    /// Length of a bin along an axis [m].
+    [[nodiscard]] double edge(int c) const { return edge_[std::size_t(c)]; }
     /// The bin of a coordinate: half-open [lower, upper). Not finite or beyond the index: the largest index.
     [[nodiscard]] std::int32_t bin(int c, double x) const
     {

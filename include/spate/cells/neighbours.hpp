@@ -10,48 +10,67 @@ namespace spate {
 
 /// How neighbour lists are kept; part of the scene, since bins fix the order of sums and with it the bits.
 struct Neighbours {
-    double skin = 0.1;     ///< reach of a list beyond the range, as a fraction of it [-]
-    double bins = 0;       ///< bin edge over the range [-], 0: 1 + skin; at least 1 + skin
-    double trigger = 0;    ///< lists are rebuilt when a particle may have moved this fraction of the range; 0: skin / 2
-    int finer = 4;         ///< bins in a range along x [-]
+    double skin = 0.07; ///< reach of a list beyond the range, as a fraction of it [-]
+    double bins = 0;    ///< bin edge over the range [-], 0: 1 + skin; at least 1 + skin
+    double trigger = 0; ///< lists are rebuilt when a pair may have closed in by this fraction of the range; 0: skin
+    int finer = 4;      ///< bins in a range along x [-]
+
+    int window = 16; ///< targets within which those of like list length share a block; changes no bit
 
     void check() const
     {
         require(skin > 0 && skin <= 2, "neighbours.skin", skin, "above 0 and at most 2");
         require(bins == 0 || (bins >= 1 + skin && bins <= 4), "neighbours.bins", bins, "0, or 1 + skin up to 4");
-        require(trigger == 0 || (trigger > 0 && trigger <= skin / 2), "neighbours.trigger", trigger,
-                "0, or above 0 and at most skin / 2");
+        require(trigger == 0 || (trigger > 0 && trigger <= skin), "neighbours.trigger", trigger,
+                "0, or above 0 and at most skin");
+        require(window >= 1 && window <= 4096, "neighbours.window", window, "1 to 4096 targets");
         require(finer >= 1 && finer <= 16, "neighbours.finer", finer, "1 to 16");
     }
     [[nodiscard]] double bin_edge() const { return bins > 0 ? bins : 1 + skin; }
-    [[nodiscard]] double moved() const { return trigger > 0 ? trigger : skin / 2; }
+    [[nodiscard]] double closed_in() const { return trigger > 0 ? trigger : skin; }
 };
 
-/// The lists of one target cell: entry (begin[b] + k) * W + lane is the k-th neighbour of target lane of block b.
+/// The lists of one target cell: entry (begin[b] + k) * W + lane is the k-th neighbour of target lane of block b, as the
+/// place of its record: its number times the length of a record. Lane l of block b is the cell's particle
+/// target[b * W + l]; within a window of targets blocks gather lists of like length (SELL-C-sigma: Kreutzer et al. 2014),
+/// so that little of a block is sentinels. The last block repeats its last target.
 struct CellLists {
-    std::vector<std::int32_t> begin;
+    std::vector<std::int32_t> begin, target;
     Array<std::int32_t> index;
+    std::int64_t pairs = 0; ///< within range when the lists were built
 };
 
 template <int Dim>
 class Lists {
 public:
-    /// \param same   target and source are one species: a particle is not its own neighbour
-    /// \param W      targets in a block
-    /// \param reach  range and skin [m]; \param range [m], for counting pairs
-    template <class P, class Q, class Backend>
-    void build(P const& target, Binning<Dim> const& at, Q const& source, Binning<Dim> const& of, Grid<Dim> const& grid,
-               bool same, int W, double reach, double range, Backend const& backend)
+    /// One source of the lists of a target: where they go, and whom they list.
+    template <class Q>
+    struct From {
+        Lists& lists;
+        Q const& particles;
+        Binning<Dim> const& bins;
+        int record; ///< length of a record of the source
+        bool same;  ///< target and source are one species: a particle is not its own neighbour
+    };
+    /// Builds the lists of a target over all its sources together: their blocks hold the same targets.
+    /// \param W  targets in a block    \param window  see Neighbours
+    /// \param reach  range and skin [m]    \param range  [m], for counting pairs
+    template <class P, class Backend, class... Q>
+    static void build(P const& target, Binning<Dim> const& at, Grid<Dim> const& grid, int W, int window, double reach,
+                      double range, Backend const& backend, From<Q>... from)
     {
-        cell_.resize(at.cells());
-        std::vector<std::int64_t> pairs(at.cells(), 0);
-        backend.for_each(at.cells(), [&](std::size_t k) {
-            pairs[k] = build_cell(cell_[k], k, target, at, source, of, grid, same, W, reach, range);
-        });
-        pairs_ = slots_ = 0;
-        for (std::size_t k = 0; k < at.cells(); ++k) pairs_ += pairs[k], slots_ += std::int64_t(cell_[k].index.size());
+        (from.lists.begin_build(at.cells(), from.record, from.particles.size()), ...);
+        const Ranges ranges(reach, range, grid);
+        backend.for_each(at.cells(),
+                         [&](std::size_t k) { build_cell(k, target, at, grid, W, window, ranges, from...); });
+        (from.lists.end_build(), ...);
     }
     [[nodiscard]] CellLists const& of_cell(std::size_t k) const { return cell_[k]; }
+    /// The number of the source's record at a place that a list holds.
+    [[nodiscard]] std::size_t number(std::int32_t place) const
+    {
+        return std::size_t(std::uint32_t(place)) / std::size_t(record_);
+    }
     /// Directed pairs within range when the lists were built.
     [[nodiscard]] std::int64_t pairs() const { return pairs_; }
     /// Entries of all lists, sentinels too.
@@ -59,50 +78,94 @@ public:
     [[nodiscard]] std::size_t bytes() const
     {
         std::size_t b = cell_.capacity() * sizeof(CellLists);
-        for (auto const& c : cell_) b += 4 * (c.begin.capacity() + c.index.capacity());
+        for (auto const& c : cell_) b += 4 * (c.begin.capacity() + c.target.capacity() + c.index.capacity());
         return b;
     }
 
 private:
+    /// Squares of the distances of a selection. Positions are floats from a row's corner: the reach grows by the rounding
+    /// of both ends, so that no pair is lost.
+    struct Ranges {
+        double hair;
+        float reach2, range2;
+        Ranges(double reach, double range, Grid<Dim> const& grid)
+            : hair(reach * (1 + 2e-6) + 4e-7 * (grid.cell() + 2) * reach), reach2(float(hair * hair)),
+              range2(float(range * range))
+        {}
+    };
     /// Candidates of a row of bins of one cell, copied together: positions as float from the row's corner.
     struct Candidates {
         Array<float> x[std::size_t(Dim)];
         std::vector<std::int32_t> number, first; // first: of row r, bin b at r * (bins + 1) + b
         std::size_t count = 0;
     };
-
-    template <class P, class Q>
-    static std::int64_t build_cell(CellLists& lists, std::size_t k, P const& target, Binning<Dim> const& at,
-                                   Q const& source, Binning<Dim> const& of, Grid<Dim> const& grid, bool same, int W,
-                                   double reach, double range)
-    {
-        static thread_local Candidates near;
-        static thread_local std::vector<std::int32_t> row, list; // of W targets, of a cell
-        static thread_local std::vector<std::size_t> length;
-        // Float differences of positions within a row of a cell: the reach grows by the rounding of both ends.
-        const double hair = reach * (1 + 2e-6) + 4e-7 * (grid.cell() + 2) * reach;
-        const auto reach2 = float(hair * hair), range2 = float(range * range);
-        const auto sentinel = std::int32_t(source.size());
-        const int nx = grid.bins_of_cell(0), nx_near = nx + 2 * grid.finer();
-        const Index<Dim> cell = at.cell(k);
-        const int rows = grid.bins_of_cell() / nx;
-
-        std::int64_t within = 0;
-        list.clear();
-        lists.begin.assign(1, 0);
-        length.assign(std::size_t(W), 0);
+    /// The lists of a window of targets, before they are dealt into blocks.
+    struct Window {
+        Candidates near;
+        std::vector<std::int32_t> row;    // of target t at t * stride
+        std::vector<std::int32_t> length; // of target t
+        std::vector<std::int32_t> list;   // of the cell, so far
+        std::size_t used = 0;             // of it
         std::size_t stride = 0;
-        int lane = 0;
-        auto close_block = [&] {
-            const std::size_t longest = *std::max_element(length.begin(), length.end());
-            const std::size_t o = list.size();
-            list.resize(o + longest * std::size_t(W));
-            for (std::size_t t = 0; t < longest; ++t)
-                for (std::size_t l = 0; l < std::size_t(W); ++l)
-                    list[o + t * std::size_t(W) + l] = t < length[l] ? row[l * stride + t] : sentinel;
-            lists.begin.push_back(std::int32_t(list.size() / std::size_t(W)));
-            std::fill(length.begin(), length.end(), 0);
-            lane = 0;
+
+        void make_room(std::size_t targets, std::size_t open)
+        {
+            length.resize(std::max(length.size(), targets));
+            const std::size_t need = near.count + 32; // a selection writes whole registers
+            if (need <= stride && row.size() >= targets * stride) return;
+            std::vector<std::int32_t> grown(need * targets);
+            for (std::size_t t = 0; t < open; ++t)
+                std::copy_n(row.begin() + std::ptrdiff_t(t * stride), length[t],
+                            grown.begin() + std::ptrdiff_t(t * need));
+            row = std::move(grown);
+            stride = need;
+        }
+    };
+
+    void begin_build(std::size_t cells, int record, std::size_t sources)
+    {
+        if (sources * std::size_t(record) > std::size_t(std::numeric_limits<std::int32_t>::max()))
+            throw BadInput("number of particles of a species", std::to_string(sources),
+                           "at most " + std::to_string(std::numeric_limits<std::int32_t>::max() / record) +
+                               " in one process: use more processes");
+        cell_.resize(cells);
+        record_ = record;
+    }
+    void end_build()
+    {
+        pairs_ = slots_ = 0;
+        for (auto const& c : cell_) pairs_ += c.pairs, slots_ += std::int64_t(c.index.size());
+    }
+
+    template <class P, class... Q>
+    static void build_cell(std::size_t k, P const& target, Binning<Dim> const& at, Grid<Dim> const& grid, int W,
+                           int window, Ranges const& ranges, From<Q> const&... from)
+    {
+        constexpr std::size_t sources = sizeof...(Q);
+        static thread_local std::array<Window, sources> open;
+        static thread_local std::vector<std::int32_t> order;
+        std::array<CellLists*, sources> lists{&from.lists.cell_[k]...};
+        const std::array<std::int32_t, sources> record{from.record...};
+        const std::array<std::int32_t, sources> sentinel{std::int32_t(from.particles.size()) * from.record...};
+        const int nx = grid.bins_of_cell(0), rows = grid.bins_of_cell() / nx;
+        const Index<Dim> cell = at.cell(k);
+        window = (std::max(window, W) + W - 1) / W * W;
+
+        for (std::size_t q = 0; q < sources; ++q) {
+            lists[q]->begin.assign(1, 0);
+            lists[q]->target.clear();
+            lists[q]->pairs = 0;
+            open[q].used = 0;
+            open[q].stride = 0;
+        }
+        int count = 0;
+        std::int32_t first = 0; // of the window
+        auto close_window = [&] {
+            like_lengths_together(order, open[0].length, count, W);
+            for (std::size_t q = 0; q < sources; ++q)
+                deal(open[q], order, first, count, W, record[q], sentinel[q], *lists[q]);
+            first += count;
+            count = 0;
         };
         for (int r = 0; r < rows; ++r) {
             const std::int32_t b0 = at.first(k, r * nx), b1 = at.first(k, (r + 1) * nx);
@@ -111,44 +174,111 @@ private:
             corner[0] = cell[0] * nx;
             if constexpr (Dim > 1) corner[1] = cell[1] * grid.bins_of_cell(1) + r % grid.bins_of_cell(1);
             if constexpr (Dim > 2) corner[2] = cell[2] * grid.bins_of_cell(2) + r / grid.bins_of_cell(1);
-            gather(near, corner, source, of, grid);
-            const std::size_t need = near.count + 32;
-            if (need > stride) {
-                std::vector<std::int32_t> grown(need * std::size_t(W));
-                for (std::size_t l = 0; l < std::size_t(W); ++l)
-                    std::copy_n(row.begin() + std::ptrdiff_t(l * stride), length[l], grown.begin() + std::ptrdiff_t(l * need));
-                row = std::move(grown);
-                stride = need;
-            }
-            constexpr int near_rows = Dim == 1 ? 1 : Dim == 2 ? 3 : 9;
-            for (int bx = 0; bx < nx; ++bx) {
-                const std::int32_t i0 = at.first(k, r * nx + bx), i1 = at.first(k, r * nx + bx + 1);
-                for (std::int32_t i = i0; i < i1; ++i) {
-                    float xi[std::size_t(Dim)];
-                    for (int c = 0; c < Dim; ++c)
-                        xi[c] = float(double(target.column(position)[std::size_t(c)][std::size_t(i)]) -
-                                      grid.corner(c, corner[std::size_t(c)]));
-                    std::int32_t* out = row.data() + std::size_t(lane) * stride;
-                    int m = 0;
-                    for (int q = 0; q < near_rows; ++q) {
-                        std::int32_t const* first = near.first.data() + q * (nx_near + 1);
-                        std::int32_t j = first[bx];
-                        const std::int32_t end = first[bx + 2 * grid.finer() + 1];
-                        for (; j < end; j += 16) {
-                            float const* x[std::size_t(Dim)];
-                            for (int c = 0; c < Dim; ++c) x[c] = near.x[c].data() + j;
-                            m += select_near<Dim>(x, near.number.data() + j, end - j, xi, reach2, range2, same ? i : -1,
-                                                  out + m, within);
-                        }
-                    }
-                    length[std::size_t(lane)] = std::size_t(m);
-                    if (++lane == W) close_block();
-                }
+            auto each_source = [&](auto&& f) {
+                std::size_t q = 0;
+                (f(q++, from), ...);
+            };
+            each_source([&](std::size_t q, auto const& source) {
+                gather(open[q].near, corner, source.particles, source.bins, grid);
+                open[q].make_room(std::size_t(window), std::size_t(count));
+            });
+            for (std::int32_t i = b0; i < b1; ++i) {
+                double x[std::size_t(Dim)];
+                for (int c = 0; c < Dim; ++c)
+                    x[c] = double(target.column(position)[std::size_t(c)][std::size_t(i)]) -
+                           grid.corner(c, corner[std::size_t(c)]);
+                each_source([&](std::size_t q, auto const& source) {
+                    auto& w = open[q];
+                    w.length[std::size_t(count)] =
+                        w.near.count == 0 ? 0
+                                          : select(w.near, x, grid, ranges, source.same ? i : -1,
+                                                   w.row.data() + std::size_t(count) * w.stride, lists[q]->pairs);
+                });
+                if (++count == window) close_window();
             }
         }
-        if (lane > 0) close_block();
-        lists.index.assign(list.begin(), list.end());
-        return within;
+        if (count > 0) close_window();
+        for (std::size_t q = 0; q < sources; ++q)
+            lists[q]->index.assign(open[q].list.begin(), open[q].list.begin() + std::ptrdiff_t(open[q].used));
+    }
+
+    /// Appends the neighbours of a target at x from the row's corner: of each row of bins, the stretch that the reach
+    /// can touch, 16 candidates at a time.
+    static std::int32_t select(Candidates const& near, double const (&x)[std::size_t(Dim)], Grid<Dim> const& grid,
+                               Ranges const& ranges, std::int32_t self, std::int32_t* out, std::int64_t& within)
+    {
+        const int nx_near = grid.bins_of_cell(0) + 2 * grid.finer();
+        constexpr int near_rows = Dim == 1 ? 1 : Dim == 2 ? 3 : 9;
+        float xi[std::size_t(Dim)];
+        for (int c = 0; c < Dim; ++c) xi[c] = float(x[c]);
+        float across[3][3] = {}; // squared distance to the rows below, at and above, along y and z
+        for (int c = 1; c < Dim; ++c) {
+            const float below = std::max(xi[c], 0.0f), above = std::max(float(grid.edge(c)) - xi[c], 0.0f);
+            across[c][0] = below * below, across[c][2] = above * above;
+        }
+        constexpr float hair = 1e-3f; // bins
+        const auto per_bin = float(1 / grid.edge(0)), last = float(nx_near - 1);
+        const float at_bin = xi[0] * per_bin + float(grid.finer());
+        float half[12];
+        std::int32_t from[12], to[12];
+        for (int q = 0; q < near_rows; ++q)
+            half[q] = ranges.reach2 - (across[1][q % 3] + across[2][Dim > 2 ? q / 3 : 1]);
+        for (int q = 0; q < near_rows; ++q) {
+            const float bins = std::sqrt(std::max(half[q], 0.0f)) * per_bin + hair;
+            from[q] = std::int32_t(std::max(at_bin - bins, 0.0f));
+            to[q] = std::int32_t(std::min(at_bin + bins, last)) + 1;
+        }
+        std::int32_t m = 0;
+        for (int q = 0; q < near_rows; ++q) {
+            if (half[q] <= 0) continue;
+            std::int32_t const* first = near.first.data() + q * (nx_near + 1);
+            const std::int32_t end = first[to[q]];
+            for (std::int32_t j = first[from[q]]; j < end; j += 16) {
+                float const* xj[std::size_t(Dim)];
+                for (int c = 0; c < Dim; ++c) xj[c] = near.x[c].data() + j;
+                m += select_near<Dim>(xj, near.number.data() + j, end - j, xi, ranges.reach2, ranges.range2, self,
+                                      out + m, within);
+            }
+        }
+        return m;
+    }
+
+    /// The targets of a window in the order of their list lengths, longest first; ties keep their place.
+    static void like_lengths_together(std::vector<std::int32_t>& order, std::vector<std::int32_t> const& length,
+                                      int count, int W)
+    {
+        order.resize(std::size_t(count));
+        for (std::int32_t t = 0; t < count; ++t) order[std::size_t(t)] = t;
+        if (count <= W) return;
+        std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
+            const auto la = length[std::size_t(a)], lb = length[std::size_t(b)];
+            return la != lb ? la > lb : a < b;
+        });
+    }
+    /// Deals the targets of a window into blocks and appends their lists.
+    static void deal(Window& open, std::vector<std::int32_t> const& order, std::int32_t first, int count, int W,
+                     std::int32_t record, std::int32_t sentinel, CellLists& lists)
+    {
+        auto& list = open.list;
+        for (int b = 0; b < count; b += W) {
+            std::int32_t longest = 0;
+            for (int l = b; l < std::min(b + W, count); ++l)
+                longest = std::max(longest, open.length[std::size_t(order[std::size_t(l)])]);
+            const std::size_t o = open.used;
+            open.used += std::size_t(longest) * std::size_t(W);
+            if (list.size() < open.used) list.resize(2 * open.used);
+            for (int l = 0; l < W; ++l) {
+                const bool real = b + l < count;
+                const auto t = std::size_t(order[std::size_t(real ? b + l : count - 1)]);
+                const std::int32_t length = real ? open.length[t] : 0;
+                lists.target.push_back(first + std::int32_t(t));
+                std::int32_t const* from = open.row.data() + t * open.stride;
+                std::int32_t* to = list.data() + o + l;
+                for (std::int32_t s = 0; s < length; ++s, to += W) *to = from[s] * record;
+                for (std::int32_t s = length; s < longest; ++s, to += W) *to = sentinel;
+            }
+            lists.begin.push_back(std::int32_t(open.used / std::size_t(W)));
+        }
     }
 
     /// Copies the candidates of one row of a cell: rows in the order of the global bins, images in their place.
@@ -178,10 +308,12 @@ private:
                 int local = 0;
                 for (int c = Dim - 1; c >= 0; --c) {
                     cell[std::size_t(c)] = grid.cell_of(c, at[std::size_t(c)]);
-                    local = local * grid.bins_of_cell(c) + at[std::size_t(c)] - cell[std::size_t(c)] * grid.bins_of_cell(c);
+                    local =
+                        local * grid.bins_of_cell(c) + at[std::size_t(c)] - cell[std::size_t(c)] * grid.bins_of_cell(c);
                 }
                 int stretch = std::min(nx - b, (cell[0] + 1) * grid.bins_of_cell(0) - at[0]);
-                if (grid.periodic(0)) stretch = std::min(stretch, at[0] < grid.bins(0) ? grid.bins(0) - at[0] : stretch);
+                if (grid.periodic(0))
+                    stretch = std::min(stretch, at[0] < grid.bins(0) ? grid.bins(0) - at[0] : stretch);
                 const std::int32_t k = exists ? of.find(cell) : -1;
                 if (k < 0) {
                     for (int s = 0; s < stretch; ++s) first[b + s] = std::int32_t(near.count);
@@ -231,11 +363,13 @@ private:
             for (std::size_t s = 0; s < n; ++s) out[s] = float(double(x[s]) - origin);
         }
         for (std::size_t s = 0; s < n; ++s)
-            near.number[o + s] = code == 0 ? j0 + std::int32_t(s) : of.record_of(j0 + std::int32_t(s), code, source.size());
+            near.number[o + s] =
+                code == 0 ? j0 + std::int32_t(s) : of.record_of(j0 + std::int32_t(s), code, source.size());
     }
 
     std::vector<CellLists> cell_;
     std::int64_t pairs_ = 0, slots_ = 0;
+    int record_ = 1;
 };
 
 } // namespace spate

@@ -21,8 +21,8 @@ enum class Kind { none, drift, kick };
 struct ScalarField {
     static constexpr int rank = 0;
     static constexpr Kind kind = Kind::none;
-    using rates = Fields<>;               ///< by what it may evolve: the first of these that the species carries
-    using rate_of = void;                 ///< for a rate: the field that it advances
+    using rates = Fields<>;                ///< by what it may evolve: the first of these that the species carries
+    using rate_of = void;                  ///< for a rate: the field that it advances
     static constexpr bool derived = false; ///< true: never an initial condition, some term must produce it
     static constexpr std::string_view unit = "-";
 };
@@ -30,6 +30,7 @@ struct VectorField : ScalarField {
     static constexpr int rank = 1;
 };
 
+// clang-format off
 template <class F>
 concept Field = std::is_empty_v<F> && std::is_trivial_v<F> && requires {
     { F::rank } -> std::convertible_to<int>;        // 0 scalar, 1 vector
@@ -37,6 +38,7 @@ concept Field = std::is_empty_v<F> && std::is_trivial_v<F> && requires {
     { F::name } -> std::convertible_to<std::string_view>;
     { F::unit } -> std::convertible_to<std::string_view>; // SI
 };
+// clang-format on
 
 template <Field F, int Dim>
 inline constexpr int components = F::rank == 0 ? 1 : Dim;

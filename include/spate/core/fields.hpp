@@ -17,10 +17,7 @@ struct Fields {
     template <class G>
     static constexpr bool contains = (std::same_as<F, std::remove_cv_t<G>> || ...);
     constexpr Fields() = default;
-    constexpr explicit Fields(F...)
-        requires(size > 0)
-    {
-    }
+    constexpr explicit Fields(F...) requires(size > 0) {}
 };
 
 namespace detail {
@@ -104,8 +101,7 @@ constexpr auto rate_in(S carried)
 template <class... F>
 constexpr auto evolving(Fields<F...> carried)
 {
-    return (Fields<>{} | ... |
-            detail::kept<(decltype(rate_in<F>(carried))::size > 0)>(F{}));
+    return (Fields<>{} | ... | detail::kept<(decltype(rate_in<F>(carried))::size > 0)>(F{}));
 }
 /// Those of one kind.
 template <Kind kind, class... F>

@@ -55,10 +55,9 @@ struct Lanes {
     Lanes() = default;
     [[gnu::always_inline]] Lanes(B const& value) : b(value) {}
     template <class U>
-        requires(std::is_arithmetic_v<U> && !std::same_as<U, B>)
-    [[gnu::always_inline]] Lanes(U value) : b(static_cast<detail::scalar_of<B>>(value))
-    {
-    }
+    requires(std::is_arithmetic_v<U> && !std::same_as<U, B>) [[gnu::always_inline]] Lanes(U value)
+        : b(static_cast<detail::scalar_of<B>>(value))
+    {}
     [[gnu::always_inline]] friend Lanes operator+(Lanes const& x, Lanes const& y) { return x.b + y.b; }
     [[gnu::always_inline]] friend Lanes operator-(Lanes const& x, Lanes const& y) { return x.b - y.b; }
     [[gnu::always_inline]] friend Lanes operator*(Lanes const& x, Lanes const& y) { return x.b * y.b; }
@@ -189,7 +188,8 @@ namespace detail {
 template <int Count, int f>
 [[gnu::always_inline]] inline void transpose(double const* const (&p)[8], Pack<double> (&out)[std::size_t(Count)])
 {
-    auto two = [&](int a, int b) __attribute__((always_inline)) {
+    auto two = [&](int a, int b) __attribute__((always_inline))
+    {
         return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_load_pd(p[a] + f)), _mm256_load_pd(p[b] + f), 1);
     };
     const __m512d r0 = two(0, 2), r1 = two(1, 3), r2 = two(4, 6), r3 = two(5, 7);
@@ -203,9 +203,12 @@ template <int Count, int f>
 template <int Count, int f> // a rest of one or two values
 [[gnu::always_inline]] inline void transpose_rest(double const* const (&p)[8], Pack<double> (&out)[std::size_t(Count)])
 {
-    auto four = [&](int a, int b, int c, int d) __attribute__((always_inline)) {
-        const __m256d lo = _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_load_pd(p[a] + f)), _mm_load_pd(p[b] + f), 1);
-        const __m256d hi = _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_load_pd(p[c] + f)), _mm_load_pd(p[d] + f), 1);
+    auto four = [&](int a, int b, int c, int d) __attribute__((always_inline))
+    {
+        const __m256d lo =
+            _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_load_pd(p[a] + f)), _mm_load_pd(p[b] + f), 1);
+        const __m256d hi =
+            _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_load_pd(p[c] + f)), _mm_load_pd(p[d] + f), 1);
         return _mm512_insertf64x4(_mm512_castpd256_pd512(lo), hi, 1);
     };
     const __m512d a = four(0, 2, 4, 6), b = four(1, 3, 5, 7);
@@ -215,8 +218,10 @@ template <int Count, int f> // a rest of one or two values
 template <int Count, int f>
 [[gnu::always_inline]] inline void transpose(float const* const (&p)[16], Pack<float> (&out)[std::size_t(Count)])
 {
-    auto four = [&](int k) __attribute__((always_inline)) { // records k, k + 4, k + 8, k + 12
-        const __m256 lo = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(p[k] + f)), _mm_load_ps(p[k + 4] + f), 1);
+    auto four = [&](int k) __attribute__((always_inline))
+    { // records k, k + 4, k + 8, k + 12
+        const __m256 lo =
+            _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(p[k] + f)), _mm_load_ps(p[k + 4] + f), 1);
         const __m256 hi =
             _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(p[k + 8] + f)), _mm_load_ps(p[k + 12] + f), 1);
         return _mm512_castpd_ps(
@@ -256,31 +261,33 @@ inline constexpr bool transposes_in_registers =
 #endif
 } // namespace detail
 
-/// out[f] lane k = base[index[k] * Stride + f], f < Count: width<V> records, transposed in registers.
+/// out[f] lane k = base[at[k] + f], f < Count: width<V> records, transposed in registers.
 /// Records start on multiples of their own size up to 32 bytes, and base is aligned to 64.
 template <int Stride, int Count, class V>
-[[gnu::always_inline]] inline void load_records(scalar_t<V> const* base, std::int32_t const* index,
+[[gnu::always_inline]] inline void load_records(scalar_t<V> const* base, std::int32_t const* at,
                                                 V (&out)[std::size_t(Count)])
 {
     using T = scalar_t<V>;
     constexpr int W = width<V>;
     if constexpr (W == 1) {
-        for (int f = 0; f < Count; ++f) out[f] = base[std::size_t(std::uint32_t(*index)) * Stride + std::size_t(f)];
+        for (int f = 0; f < Count; ++f) out[f] = base[std::size_t(std::uint32_t(*at)) + std::size_t(f)];
     }
     else if constexpr (detail::transposes_in_registers<T> && (Stride % 4 == 0 || (Stride == 2 && W == 8))) {
         T const* p[std::size_t(W)];
-        for (int k = 0; k < W; ++k) p[k] = base + std::size_t(std::uint32_t(index[k])) * Stride;
+        for (int k = 0; k < W; ++k) p[k] = base + std::size_t(std::uint32_t(at[k]));
 #if defined(__AVX512F__)
         constexpr bool rest = W == 8 && (Count % 4 == 1 || Count % 4 == 2);
 #else
         constexpr bool rest = false;
 #endif
+#if defined(__AVX2__) || defined(__AVX512F__)
         constexpr int fours = rest ? Count / 4 : (Count + 3) / 4;
         [&]<std::size_t... g>(std::index_sequence<g...>) __attribute__((always_inline))
         {
             (detail::transpose<Count, int(4 * g)>(p, out), ...);
         }
         (std::make_index_sequence<std::size_t(fours)>{});
+#endif
 #if defined(__AVX512F__)
         if constexpr (rest) detail::transpose_rest<Count, Count / 4 * 4>(p, out);
 #endif
@@ -288,7 +295,7 @@ template <int Stride, int Count, class V>
     else {
         alignas(64) T t[std::size_t(Count)][std::size_t(W)];
         for (int k = 0; k < W; ++k)
-            for (int f = 0; f < Count; ++f) t[f][k] = base[std::size_t(std::uint32_t(index[k])) * Stride + std::size_t(f)];
+            for (int f = 0; f < Count; ++f) t[f][k] = base[std::size_t(std::uint32_t(at[k])) + std::size_t(f)];
         for (int f = 0; f < Count; ++f) out[f] = V(decltype(V::b)::load_aligned(t[f]));
     }
 }
@@ -297,9 +304,9 @@ template <int Stride, int Count, class V>
 /// `count` candidates count. Writes up to 16 entries past the returned end. Returns how many were appended and
 /// adds to `within` how many of them are nearer than the inner distance.
 template <int Dim>
-[[gnu::always_inline]] inline int select_near(float const* const (&x)[std::size_t(Dim)], std::int32_t const* number, int count,
-                                              float const (&at)[std::size_t(Dim)], float reach2, float inner2,
-                                              std::int32_t self, std::int32_t* list, std::int64_t& within)
+[[gnu::always_inline]] inline int select_near(float const* const (&x)[std::size_t(Dim)], std::int32_t const* number,
+                                              int count, float const (&at)[std::size_t(Dim)], float reach2,
+                                              float inner2, std::int32_t self, std::int32_t* list, std::int64_t& within)
 {
 #if defined(__AVX512F__)
     __m512 d2 = _mm512_setzero_ps();

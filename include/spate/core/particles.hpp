@@ -43,7 +43,10 @@ public:
         id_.resize(n);
         for (std::size_t i = old; i < n; ++i) id_[i] = next_id_++;
         for_each(fields, [&](auto f) {
-            for (auto& a : column(f)) a.resize((n + 2 * padding - 1) / padding * padding, T(0));
+            for (auto& a : column(f)) {
+                a.resize((n + 2 * padding - 1) / padding * padding);
+                std::fill(a.begin() + std::ptrdiff_t(std::min(old, n)), a.end(), T(0)); // the padding was not zero
+            }
         });
     }
     /// The Dim (or 1) columns of a field; column(f)[c][i] is component c of particle i.
@@ -123,19 +126,42 @@ public:
         else
             for (int c = 0; c < Dim; ++c) store_first(a[c].data() + i, v[c], lanes);
     }
-    /// The record of particles i, i + 1, ...: contiguous loads, no transpose.
+    /// The record of particles first + target[0], first + target[1], ...
     template <class V, class... G>
-    [[gnu::always_inline]] auto record_at(Fields<G...>, std::size_t i) const
+    [[gnu::always_inline]] auto record_of(Fields<G...>, std::int32_t first, std::int32_t const* target) const
     {
         Record<Dim, V, Fields<G...>> r;
-        ((r[G{}] = load_at<V>(G{}, i)), ...);
+        auto one = [&]<class X>(X g) __attribute__((always_inline))
+        {
+            auto const& a = column(g);
+            if constexpr (X::rank == 0) r[g] = lanes_of<V>(a[0].data() + first, target);
+            else
+                for (int c = 0; c < Dim; ++c) r[g][c] = lanes_of<V>(a[c].data() + first, target);
+        };
+        (one(G{}), ...);
         return r;
+    }
+    /// Stores the first `lanes` lanes of a field at particles first + target[0], ...
+    template <class V, Field G>
+    [[gnu::always_inline]] void store_of(G g, std::int32_t first, std::int32_t const* target, Value<G, Dim, V> const& v,
+                                         int lanes)
+    {
+        auto one = [&](T * a, V const& x) __attribute__((always_inline))
+        {
+            alignas(64) T lane[std::size_t(width<V>)];
+            store(lane, x);
+            for (int l = 0; l < lanes; ++l) a[target[l]] = lane[l];
+        };
+        auto& a = column(g);
+        if constexpr (G::rank == 0) one(a[0].data() + first, v);
+        else
+            for (int c = 0; c < Dim; ++c) one(a[c].data() + first, v[c]);
     }
     template <class V>
     [[gnu::always_inline]] auto uniforms() const
     {
         Record<Dim, V, Fields<U...>> r;
-        auto one = [&]<class G>(G g) {
+        [[maybe_unused]] auto one = [&]<class G>(G g) {
             if constexpr (G::rank == 0) r[g] = V(value(g));
             else
                 for (int c = 0; c < Dim; ++c) r[g][c] = V(value(g));
@@ -186,6 +212,13 @@ public:
     }
 
 private:
+    template <class V>
+    [[gnu::always_inline]] static V lanes_of(T const* a, std::int32_t const* target)
+    {
+        alignas(64) T lane[std::size_t(width<V>)];
+        for (int l = 0; l < width<V>; ++l) lane[l] = a[target[l]];
+        return load<V>(lane);
+    }
     template <class G>
     struct Column {
         Array<T> c[std::size_t(components<G, Dim>)];

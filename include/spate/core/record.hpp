@@ -49,15 +49,16 @@ struct Layout<Dim, Fields<F...>> {
     }();
 };
 
-/// The record of width<V> particles, gathered by index from the packed array.
+/// The records of width<V> particles, gathered from where they lie in the packed array.
 template <class V, int Dim, class... F>
-[[gnu::always_inline]] inline auto gathered(scalar_t<V> const* base, std::int32_t const* index, Layout<Dim, Fields<F...>>)
+[[gnu::always_inline]] inline auto gathered(scalar_t<V> const* base, std::int32_t const* at, Layout<Dim, Fields<F...>>)
 {
     using L = Layout<Dim, Fields<F...>>;
     V flat[std::size_t(L::count)];
-    load_records<L::stride, L::count>(base, index, flat);
+    load_records<L::stride, L::count>(base, at, flat);
     Record<Dim, V, Fields<F...>> r;
-    auto one = [&]<class G>(G g) __attribute__((always_inline)) {
+    auto one = [&]<class G>(G g) __attribute__((always_inline))
+    {
         if constexpr (G::rank == 0) r[g] = flat[L::template offset<G>];
         else
             for (int c = 0; c < Dim; ++c) r[g][c] = flat[L::template offset<G> + c];
@@ -69,7 +70,8 @@ template <class V, int Dim, class... F>
 template <int Dim, class V, class... F>
 [[gnu::always_inline]] inline void clear(Record<Dim, V, Fields<F...>>& r)
 {
-    auto one = [&]<class G>(G g) __attribute__((always_inline)) {
+    auto one = [&]<class G>(G g) __attribute__((always_inline))
+    {
         if constexpr (G::rank == 0) r[g] = V(0);
         else
             for (int c = 0; c < Dim; ++c) r[g][c] = V(0);

@@ -11,6 +11,9 @@
 namespace spate {
 
 template <int Dim, class V>
+struct Along;
+
+template <int Dim, class V>
 struct Vec {
     static_assert(Dim >= 1 && Dim <= 3, "spate: space has 1, 2 or 3 dimensions");
     V c[std::size_t(Dim)];
@@ -24,6 +27,7 @@ struct Vec {
         else if constexpr (Dim == 2) return c[0] * b.c[0] + c[1] * b.c[1];
         else return c[0] * b.c[0] + c[1] * b.c[1] + c[2] * b.c[2];
     }
+    [[gnu::always_inline]] V dot(Along<Dim, V> const& b) const { return b.dot(*this); }
     [[gnu::always_inline]] V squaredNorm() const { return dot(*this); }
 
     // Written out, not looped: g++ then splits the vector into registers at once.
@@ -51,13 +55,26 @@ struct Vec {
     [[gnu::always_inline]] Vec& operator-=(Vec const& b) { return *this = *this - b; }
     /// A constant vector, the same in all lanes.
     template <class U>
-        requires(!std::same_as<U, V> && std::is_arithmetic_v<U>)
-    [[gnu::always_inline]] Vec& operator+=(Vec<Dim, U> const& b)
+    requires(!std::same_as<U, V> && std::is_arithmetic_v<U>) [[gnu::always_inline]] Vec&
+    operator+=(Vec<Dim, U> const& b)
     {
         for (int k = 0; k < Dim; ++k) c[k] += V(b.c[k]);
         return *this;
     }
     bool operator==(Vec const&) const = default;
+};
+
+/// A vector along a given one, F x: what the gradient of a radial function is. Kept apart, so that F and x . b are each
+/// computed once however many terms use them.
+template <int Dim, class V>
+struct Along {
+    V F;
+    Vec<Dim, V> x;
+
+    [[gnu::always_inline]] V operator[](int k) const { return F * x[k]; }
+    [[gnu::always_inline]] V dot(Vec<Dim, V> const& b) const { return F * b.dot(x); }
+    [[gnu::always_inline]] friend Vec<Dim, V> operator*(V const& s, Along const& a) { return (s * a.F) * a.x; }
+    [[gnu::always_inline]] friend Vec<Dim, V> operator*(Along const& a, V const& s) { return s * a; }
 };
 
 /// The same vector in all lanes.

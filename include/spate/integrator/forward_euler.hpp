@@ -9,10 +9,13 @@ namespace spate {
 struct ForwardEuler {
     static constexpr const char* name = "forward_euler";
     static constexpr int order = 1;
-    static constexpr int evaluations = 1;            ///< of the rates, a step
-    static constexpr bool saves = false;             ///< keeps the start of the step
-    static constexpr double imaginary_limit = 0;     ///< largest stable omega dt without damping
-    static constexpr double real_limit = 2;          ///< largest stable rate * dt of a decay
+    static constexpr int evaluations = 1;       ///< of the rates, a step
+    static constexpr bool saves = false;        ///< keeps the start of the step
+    static constexpr double ahead_velocity = 0; ///< rates are taken at positions up to x + this v dt ...
+    static constexpr double ahead_acceleration =
+        0;                                       ///< ... + this a dt^2: rates are taken at the start of the step only
+    static constexpr double imaginary_limit = 0; ///< largest stable omega dt without damping
+    static constexpr double real_limit = 2;      ///< largest stable rate * dt of a decay
     /// Amplitude growth less 1 over a step, of an undamped oscillation at z = omega dt.
     static double growth(double z) { return z * z / 2; }
 

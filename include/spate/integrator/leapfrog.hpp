@@ -13,7 +13,9 @@ struct Leapfrog {
     static constexpr int order = 2;
     static constexpr int evaluations = 1;
     static constexpr bool saves = false;
-    static constexpr bool carries_rates = true; ///< begins with the kick rates of the last step
+    static constexpr bool carries_rates = true;       ///< begins with the kick rates of the last step
+    static constexpr double ahead_velocity = 1;       ///< rates are taken at positions up to x + this v dt ...
+    static constexpr double ahead_acceleration = 0.5; ///< ... + this a dt^2: the force is taken at its end
     static constexpr double imaginary_limit = 2;
     static constexpr double real_limit = 2;
     static double growth(double) { return 0; }

@@ -12,6 +12,8 @@ struct RungeKutta2 {
     static constexpr int order = 2;
     static constexpr int evaluations = 2;
     static constexpr bool saves = true;
+    static constexpr double ahead_velocity = 0.5;   ///< rates are taken at positions up to x + this v dt ...
+    static constexpr double ahead_acceleration = 0; ///< ... + this a dt^2: the second rates are taken at x + dt/2 v
     static constexpr double imaginary_limit = 0;
     static constexpr double real_limit = 2;
     static double growth(double z) { return z * z * z * z / 8; }

@@ -12,6 +12,9 @@ struct SymplecticEuler {
     static constexpr int order = 1;
     static constexpr int evaluations = 1;
     static constexpr bool saves = false;
+    static constexpr double ahead_velocity = 0; ///< rates are taken at positions up to x + this v dt ...
+    static constexpr double ahead_acceleration =
+        0; ///< ... + this a dt^2: rates are taken at the start of the step only
     static constexpr double imaginary_limit = 2;
     static constexpr double real_limit = 2;
     static double growth(double) { return 0; }

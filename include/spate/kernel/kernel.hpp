@@ -10,6 +10,7 @@
 
 namespace spate {
 
+// clang-format off
 template <class K>
 concept Kernel = requires(K const k, double q) {
     { K::dim } -> std::convertible_to<int>;     // 1, 2 or 3
@@ -19,6 +20,7 @@ concept Kernel = requires(K const k, double q) {
     { K::f(q) } -> std::same_as<double>;        // shape [-]
     { K::g(q) } -> std::same_as<double>;        // f'(q)/q [-]
 };
+// clang-format on
 
 namespace detail {
 constexpr double power(double x, int n)

@@ -28,7 +28,8 @@ Energy energy_of(S const& s, Eos const* eos, Vec<Dim, double> const& g)
         else return 1.0;
     };
     e.kinetic = s.sum([&](std::size_t i) { return 0.5 * mass_of(i) * p.at(velocity, i).squaredNorm(); });
-    if (g != Vec<Dim, double>{}) e.potential = s.sum([&](std::size_t i) { return -mass_of(i) * g.dot(p.at(position, i)); });
+    if (g != Vec<Dim, double>{})
+        e.potential = s.sum([&](std::size_t i) { return -mass_of(i) * g.dot(p.at(position, i)); });
     if constexpr (!std::is_void_v<Eos> && Q::template has<Density>)
         e.internal = s.sum([&](std::size_t i) { return mass_of(i) * eos->energy_of(p.at(density, i)); });
     else e.internal = s.pair_energy();

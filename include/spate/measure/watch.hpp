@@ -15,9 +15,9 @@ namespace spate {
 /// then at the total energy.
 struct Watch {
     static constexpr bool on = true;
-    int energy_every = 10;       ///< steps between two looks at the energy
-    double warn = 0.01;          ///< rise of total energy over its reference that is told [-]
-    double stop = 0.05;          ///< ... that ends the run [-]
+    int energy_every = 10; ///< steps between two looks at the energy
+    double warn = 0.01;    ///< rise of total energy over its reference that is told [-]
+    double stop = 0.05;    ///< ... that ends the run [-]
 };
 struct NoWatch {
     static constexpr bool on = false;
@@ -63,7 +63,8 @@ std::pair<std::string, double> not_finite(P const& p, std::size_t i)
 template <class P>
 void stop_if_not_finite(P const& p, std::int64_t step, double time)
 {
-    const std::size_t i = detail::first_by_id(p, [&](std::size_t k) { return !detail::not_finite(p, k).first.empty(); });
+    const std::size_t i =
+        detail::first_by_id(p, [&](std::size_t k) { return !detail::not_finite(p, k).first.empty(); });
     if (i == p.size()) return;
     StopFacts f = detail::facts_of(p, i);
     f.step = step, f.time = time;

@@ -68,8 +68,9 @@ private:
     template <class F>
     static constexpr auto over_terms(F f)
     {
-        return [&]<class... T>(std::tuple<T...> const*) { return (Fields<>{} | ... | f.template operator()<T>()); }(
-            static_cast<Terms const*>(nullptr));
+        return [&]<class... T>(std::tuple<T...> const*) {
+            return (Fields<>{} | ... | f.template operator()<T>());
+        }(static_cast<Terms const*>(nullptr));
     }
     static constexpr auto touched = over_terms([]<class T>() { return detail::mobile_fields<T>(); });
     static constexpr auto marker_side() // fields of the markers, uniform ones too
@@ -79,8 +80,8 @@ private:
                 if constexpr (between<T>().target == Role::marker) return reads_i<T>() | writes<T>() | adds<T>();
                 else return Fields<>{};
             });
-            return Fields{position} | Interaction::reads | over_terms([]<class T>() { return detail::marker_reads<T>(); }) |
-                   B::state | own;
+            return Fields{position} | Interaction::reads |
+                   over_terms([]<class T>() { return detail::marker_reads<T>(); }) | B::state | own;
         }
         else return Fields<>{};
     }
@@ -93,7 +94,8 @@ private:
 public:
     /// Fields by species: 0 the mobile particles, 1 the markers of the boundary.
     static constexpr auto mobile = (Fields{position, velocity} | Interaction::reads | touched |
-                                    detail::advanced_by(touched) | Fields{build_position}) - P::uniform;
+                                    detail::advanced_by(touched) | Fields{build_position}) -
+                                   P::uniform;
     static constexpr auto marker = marker_side() - marker_uniform();
     template <int s>
     static constexpr auto stored()
@@ -148,6 +150,7 @@ private:
         f.pair = PairTerm<T>;
         f.reads_i = mask(reads_i<T>());
         f.reads_j = f.pair ? mask(reads_j<T>()) : 0;
+        if (has_self<T>) f.reads_i |= f.reads_j; // the target is its own source
         if (f.pair) f.reads_i |= mask(Interaction::reads), f.reads_j |= mask(Interaction::reads);
         f.writes = mask(writes<T>());
         f.adds = mask(adds<T>());
@@ -176,7 +179,8 @@ private:
         }(static_cast<Terms const*>(nullptr));
         p.species[0] = {mask(mobile), mask(P::uniform), mask(detail::only_given(mobile | P::uniform)), false};
         if constexpr (species == 2)
-            p.species[1] = {mask(marker), mask(marker_uniform()), mask(detail::only_given(marker | marker_uniform())), true};
+            p.species[1] = {mask(marker), mask(marker_uniform()), mask(detail::only_given(marker | marker_uniform())),
+                            true};
         p.interaction = mask(Interaction::reads);
         return p;
     }
@@ -241,7 +245,7 @@ private:
     static constexpr Mask rates_of(Fields<F...>)
     {
         Mask m = 0;
-        auto one = [&]<class G>(G) {
+        [[maybe_unused]] auto one = [&]<class G>(G) {
             if constexpr (Set<stored<s>()>::template contains<G>) m |= mask(rate_in<G>(stored<s>()));
         };
         (one(F{}), ...);

@@ -10,6 +10,7 @@
 
 namespace spate {
 
+// clang-format off
 template <class I>
 concept Interaction = requires(I const i) {
     { I::dim } -> std::convertible_to<int>;
@@ -18,6 +19,7 @@ concept Interaction = requires(I const i) {
     { i.length() } -> std::convertible_to<double>; // length of the time-step criteria [m]
     i.check();
 };
+// clang-format on
 
 namespace detail {
 template <class T>
@@ -26,9 +28,15 @@ template <class F>
 inline constexpr bool is_uniform<Uniform<F>> = true;
 
 template <class T>
-constexpr auto uniform_field(Uniform<T> const*) { return Fields<T>{}; }
+constexpr auto uniform_field(Uniform<T> const*)
+{
+    return Fields<T>{};
+}
 template <class T>
-constexpr auto uniform_field(T const*) { return Fields<>{}; }
+constexpr auto uniform_field(T const*)
+{
+    return Fields<>{};
+}
 
 /// All but the Uniform entries.
 auto only_terms(auto const&... t)
@@ -48,9 +56,11 @@ void each_in(std::tuple<T...> const& t, auto&& f)
 /// \tparam I  the interaction    \tparam U  the uniform fields    \tparam T  the terms
 template <class I, class U, class... T>
 struct Physics {
-    static_assert(Interaction<I>, "spate: the first argument of a physics is an interaction, such as Smoothing or Discs");
-    static_assert((Term<T> && ...), "spate: a term is called with one particle, `void operator()(auto& i) const`, or with "
-                                    "a pair, `void operator()(auto& i, auto const& j, auto const& ij) const`");
+    static_assert(Interaction<I>,
+                  "spate: the first argument of a physics is an interaction, such as Smoothing or Discs");
+    static_assert((Term<T> && ...),
+                  "spate: a term is called with one particle, `void operator()(auto& i) const`, or with "
+                  "a pair, `void operator()(auto& i, auto const& j, auto const& ij) const`");
     static constexpr int dim = I::dim;
     using Terms = std::tuple<T...>;
     static constexpr std::remove_cv_t<U> uniform{};

@@ -68,7 +68,8 @@ struct Planner {
     {
         Mask m = 0;
         for (int t = 0; t < Terms; ++t)
-            if (on(t, s) && term[std::size_t(t)].when == w) m |= term[std::size_t(t)].writes | term[std::size_t(t)].adds;
+            if (on(t, s) && term[std::size_t(t)].when == w)
+                m |= term[std::size_t(t)].writes | term[std::size_t(t)].adds;
         return m;
     }
 
@@ -82,8 +83,8 @@ struct Planner {
                 Mask there = species[std::size_t(s)].given | made(s, When::evaluation) | made(s, f.when);
                 if ((f.reads_i & ~there) != 0) return t;
                 for (int q = 0; q < Species; ++q)
-                    if (from(t, s, q) &&
-                        (f.reads_j & ~(species[std::size_t(q)].given | made(q, When::evaluation) | made(q, f.when))) != 0)
+                    if (from(t, s, q) && (f.reads_j & ~(species[std::size_t(q)].given | made(q, When::evaluation) |
+                                                        made(q, f.when))) != 0)
                         return t;
             }
         return -1;

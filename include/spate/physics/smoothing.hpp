@@ -12,16 +12,18 @@ namespace spate {
 /// What a term sees of a pair of smoothed particles.
 template <int Dim, class V>
 struct SmoothedPair {
-    Vec<Dim, V> x;      ///< x_i - x_j [m]
-    V r2;               ///< |x|^2 [m^2]
-    V h;                ///< smoothing length [m]
-    V w;                ///< W(|x|, h) [m^-dim]
-    Vec<Dim, V> grad_w; ///< gradient of W with respect to x_i [m^-(dim+1)]
+    Vec<Dim, V> x;        ///< x_i - x_j [m]
+    V r2;                 ///< |x|^2 [m^2]
+    V h;                  ///< smoothing length [m]
+    V over_r2;            ///< 1/(|x|^2 + 0.01 h^2), finite at r = 0 [m^-2] (Monaghan 1992, eq. 4.2)
+    V w;                  ///< W(|x|, h) [m^-dim]
+    Along<Dim, V> grad_w; ///< gradient of W with respect to x_i [m^-(dim+1)]
 };
 
 template <class K>
 struct Smoothing {
-    static_assert(Kernel<K>, "spate: Smoothing needs a kernel: dim, h, radius, sigma(), f(q), g(q); see kernel/kernel.hpp");
+    static_assert(Kernel<K>,
+                  "spate: Smoothing needs a kernel: dim, h, radius, sigma(), f(q), g(q); see kernel/kernel.hpp");
     static constexpr int dim = K::dim;
     static constexpr Fields reads{position};
     K kernel;
@@ -38,10 +40,12 @@ struct Smoothing {
         ij.x = i[position] - j[position];
         ij.r2 = ij.x.squaredNorm();
         ij.h = V(kernel.h);
+        ij.over_r2 = 1 / (ij.r2 + V(0.01 * kernel.h * kernel.h));
         const V q = sqrt(ij.r2) * V(1 / kernel.h);
         const V s = V(kernel.sigma());
         ij.w = s * K::f(q);
-        ij.grad_w = (V(kernel.sigma() / (kernel.h * kernel.h)) * K::g(q)) * ij.x;
+        ij.grad_w.F = V(kernel.sigma() / (kernel.h * kernel.h)) * K::g(q);
+        ij.grad_w.x = ij.x;
         return ij;
     }
 };

@@ -13,12 +13,13 @@
 
 namespace spate {
 
-/// The records of one species as a source: record i at data + i * stride; record n is the sentinel, out of everyone's
+/// The records of one species as a source: record i at data + i * stride, which is what lists hold; record n is the sentinel, out of everyone's
 /// range; images follow.
 template <int Dim, Real T, class S>
 struct Packed {
     using L = Layout<Dim, S>;
     static constexpr S fields{};
+    static constexpr T far = T(sizeof(T) == 4 ? 1e8 : 1e12); ///< where the sentinel is [m]: its cube times a density is finite
     Array<T> data;
 };
 
@@ -87,7 +88,7 @@ template <class V, class I, class Tuple, class Ri, class Ui, class A, class Src>
         const auto rj = gathered<V>(base, index, L{});
         const auto ij = pair_of<I, V>(interaction, ri, ui, rj, uj);
         if constexpr (requires { ij.mask; })
-            if (!any(ij.mask)) continue;
+            if (!spate::any(ij.mask)) continue; // qualified: xsimd has one too
         apply_all<Src::terms>(all, ri, ui, rj, uj, sums, ij, std::make_index_sequence<std::tuple_size_v<Tuple>>{});
     }
 }
@@ -126,18 +127,23 @@ void sweep_cell(I const& interaction_, Tuple const& terms_, P& particles, Binnin
     const I interaction = interaction_; // copies in this frame: parameters become invariants in registers
     const Tuple all = terms_;
     const auto ui = particles.template uniforms<V>();
-    const auto begin = std::size_t(at.begin(cell)), end = std::size_t(at.end(cell));
-    for (std::size_t i = begin, block = 0; i < end; i += std::size_t(width<V>), ++block) {
-        const auto ri = particles.template record_at<V>(Target{}, i);
+    const auto first = at.begin(cell);
+    auto const& lists = std::get<0>(std::tie(source...)).lists.of_cell(cell);
+    const std::size_t blocks = lists.begin.size() - 1;
+    const int targets = at.end(cell) - first;
+    for (std::size_t block = 0; block < blocks; ++block) {
+        std::int32_t const* target = lists.target.data() + block * std::size_t(width<V>);
+        const auto ri = particles.template record_of<V>(Target{}, first, target);
         Record<P::dim, V, Sums> sums;
         clear(sums);
         (detail::over<V>(interaction, all, ri, ui, sums, source, cell, block), ...);
         detail::with_itself<terms, V>(interaction, all, ri, ui, sums,
                                       std::make_index_sequence<std::tuple_size_v<Tuple>>{});
-        const int lanes = int(std::min(end - i, std::size_t(width<V>)));
-        for_each(Sums{}, [&](auto f) __attribute__((always_inline)) {
-            particles.template store_at<V>(f, i, sums[f], lanes);
-        });
+        const int lanes = std::min(targets - int(block) * width<V>, width<V>);
+        for_each(
+            Sums{}, [&](auto f) __attribute__((always_inline)) {
+                particles.template store_of<V>(f, first, target, sums[f], lanes);
+            });
     }
 }
 

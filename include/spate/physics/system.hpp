@@ -15,17 +15,25 @@ namespace spate {
 
 /// Largest values over the mobile particles; NaN-safe by `poison`.
 struct Extremes {
-    double speed = 0;        ///< max |v| [m/s]
-    double acceleration = 0; ///< max |a| [m/s^2]
-    double moved = 0;        ///< max |x - x_build| [m]
+    double speed = 0;                                        ///< max |v| [m/s]
+    double acceleration = 0;                                 ///< max |a| [m/s^2]
+    double moved = 0;                                        ///< max |x - x_build| [m]
+    std::array<double, 3> least_move{}, most_move{};         ///< of x - x_build by component [m]
+    std::array<double, 3> least_velocity{}, most_velocity{}; ///< by component [m/s]
     double least_density = std::numeric_limits<double>::infinity(), most_density = 0; ///< [kg/m^3]
-    double poison = 0;       ///< 0, or NaN as soon as any field of any particle is not finite
+    double poison = 0; ///< 0, or NaN as soon as any field of any particle is not finite
 
     void operator|=(Extremes const& b)
     {
         speed = std::max(speed, b.speed);
         acceleration = std::max(acceleration, b.acceleration);
         moved = std::max(moved, b.moved);
+        for (std::size_t c = 0; c < 3; ++c) { // 0 is among them: at worst a rebuild too early
+            least_move[c] = std::min(least_move[c], b.least_move[c]);
+            most_move[c] = std::max(most_move[c], b.most_move[c]);
+            least_velocity[c] = std::min(least_velocity[c], b.least_velocity[c]);
+            most_velocity[c] = std::max(most_velocity[c], b.most_velocity[c]);
+        }
         least_density = std::min(least_density, b.least_density);
         most_density = std::max(most_density, b.most_density);
         poison += b.poison;
@@ -76,8 +84,8 @@ public:
     /// f(integral constant s) for each species.
     void each_species(auto&& f) const
     {
-        [&]<int... s>(std::integer_sequence<int, s...>) { (f(std::integral_constant<int, s>{}), ...); }(
-            std::make_integer_sequence<int, species_count>{});
+        [&]<int... s>(std::integer_sequence<int, s...>) { (f(std::integral_constant<int, s>{}), ...); }
+        (std::make_integer_sequence<int, species_count>{});
     }
     [[nodiscard]] std::size_t total() const
     {
@@ -115,26 +123,37 @@ public:
         sorted_markers_ = true;
         const double range = physics_.interaction.range(), reach = range * (1 + neighbours_.skin);
         each_species([&](auto s) {
-            each_species([&](auto q) {
-                if constexpr (M::planner.meet(s(), q()))
-                    lists_[std::size_t(s() * species_count + q())].build(
-                        species<s()>().particles, species<s()>().bins, species<q()>().particles, species<q()>().bins,
-                        grid_, s() == q(), width<V>, reach, range, backend_);
-            });
+            auto build = [&](auto... from) {
+                if constexpr (sizeof...(from) > 0)
+                    Lists<dim>::build(species<s()>().particles, species<s()>().bins, grid_, width<V>,
+                                      neighbours_.window, reach, range, backend_, from...);
+            };
+            constexpr bool meets_0 = M::planner.meet(s(), 0), meets_1 = species_count == 2 && M::planner.meet(s(), 1);
+            if constexpr (meets_0 && meets_1) build(from<s(), 0>(), from<s(), 1>());
+            else if constexpr (meets_0) build(from<s(), 0>());
+            else if constexpr (meets_1) build(from<s(), 1>());
         });
         have_lists_ = true;
         ++rebuilds_;
     }
-    /// Whether lists may miss a pair if every particle moves `ahead` [m] more.
-    [[nodiscard]] bool stale(double moved, double ahead) const
+    /// Whether lists may miss a pair of positions up to x + v t + a t2. Two mobile particles close in by no more than the
+    /// diagonal of the box of all displacements, one on a marker by no more than the largest of them.
+    [[nodiscard]] bool stale(Extremes const& e, double t, double t2) const
     {
-        return !have_lists_ || !(moved + ahead <= neighbours_.moved() * physics_.interaction.range());
+        const double allowed = neighbours_.closed_in() * physics_.interaction.range();
+        double diagonal2 = 0;
+        for (std::size_t c = 0; c < std::size_t(dim); ++c) {
+            const double side = e.most_move[c] - e.least_move[c] + t * (e.most_velocity[c] - e.least_velocity[c]);
+            diagonal2 += side * side;
+        }
+        const double pair = std::sqrt(diagonal2) + 2 * t2 * e.acceleration;
+        const double marker = M::markers ? e.moved + t * e.speed + t2 * e.acceleration : 0;
+        return !have_lists_ || !(pair <= allowed && marker <= allowed);
     }
     void forget_lists() { have_lists_ = false, sorted_markers_ = false, kick_rates_ = false; }
     /// Whether the kick rates are those of the present state: an integrator may begin with them.
     [[nodiscard]] bool kick_rates_current() const { return kick_rates_; }
     void keep_kick_rates() { kick_rates_ = true; }
-    [[nodiscard]] bool particles_need_lists() const { return !have_lists_; }
     [[nodiscard]] std::int64_t rebuilds() const { return rebuilds_; }
     /// Directed pairs within range when the lists were built.
     [[nodiscard]] std::int64_t pairs() const
@@ -265,13 +284,15 @@ public:
                 const auto ui = p.template uniforms<double>();
                 ExactSum mine;
                 for (std::size_t slot = 0; slot < lists.index.size(); ++slot) {
-                    const auto j = std::size_t(lists.index[slot]);
+                    const auto j = this->template lists<0, 0>().number(lists.index[slot]);
                     if (j == n) continue;
                     std::size_t block = 0;
                     const std::size_t row = slot / std::size_t(width<V>);
                     block = std::size_t(std::upper_bound(lists.begin.begin(), lists.begin.end(), std::int32_t(row)) -
-                                        lists.begin.begin()) - 1;
-                    const std::size_t i = first + block * std::size_t(width<V>) + slot % std::size_t(width<V>);
+                                        lists.begin.begin()) -
+                            1;
+                    const std::size_t i =
+                        first + std::size_t(lists.target[block * std::size_t(width<V>) + slot % std::size_t(width<V>)]);
                     auto ri = double_record(p, i), rj = double_record(p, j < n ? j : std::size_t(images.of[j - n - 1]));
                     if (j > n) rj[position] += shift_of(images.code[j - n - 1], grid_);
                     const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, ui, rj, ui);
@@ -339,7 +360,8 @@ public:
         static constexpr Mask pair_terms = [] {
             Mask m = 0;
             for (int t = 0; t < M::terms; ++t)
-                if (M::planner.on(t, 0) && M::planner.from(t, 0, source) && M::planner.term[std::size_t(t)].when == When::evaluation)
+                if (M::planner.on(t, 0) && M::planner.from(t, 0, source) &&
+                    M::planner.term[std::size_t(t)].when == When::evaluation)
                     m |= Mask(1) << t;
             return m;
         }();
@@ -401,8 +423,8 @@ private:
     template <auto const& plan>
     void run()
     {
-        [&]<std::size_t... k>(std::index_sequence<k...>) { (stage<plan.stage[k]>(), ...); }(
-            std::make_index_sequence<std::size_t(plan.count)>{});
+        [&]<std::size_t... k>(std::index_sequence<k...>) { (stage<plan.stage[k]>(), ...); }
+        (std::make_index_sequence<std::size_t(plan.count)>{});
     }
     template <Stage st>
     void stage()
@@ -475,7 +497,7 @@ private:
         });
         constexpr auto at = std::size_t(L::template offset<Position>);
         for (std::size_t f = 0; f < stride && n > 0; ++f) data[n * stride + f] = data[f];
-        for (std::size_t c = 0; c < std::size_t(dim); ++c) data[n * stride + at + c] = T(1e12); // beyond every range
+        for (std::size_t c = 0; c < std::size_t(dim); ++c) data[n * stride + at + c] = x.packed.far; // beyond every range
         if (images.of.empty()) return;
         backend_.for_each((images.of.size() + task - 1) / task, [&](std::size_t k) {
             for (std::size_t g = k * task, end = std::min(images.of.size(), (k + 1) * task); g < end; ++g) {
@@ -505,11 +527,20 @@ private:
         else if constexpr (from_1 != 0) run_with(source<s, 1, from_1>());
         else run_with();
     }
+    template <int s, int q>
+    auto from()
+    {
+        auto const& x = species<q>();
+        return typename Lists<dim>::template From<ParticlesOf<q>>{
+            lists_[std::size_t(s * species_count + q)], x.particles, x.bins,
+            Layout<dim, Set<M::template record<q>()>>::stride, s == q};
+    }
     template <int s, int q, Mask terms>
     auto source() const
     {
         auto const& x = species<q>();
-        return Source<terms, ParticlesOf<q>, std::remove_cvref_t<decltype(x.packed)>>{x.particles, x.packed, lists<s, q>(), s == q};
+        return Source<terms, ParticlesOf<q>, std::remove_cvref_t<decltype(x.packed)>>{x.particles, x.packed,
+                                                                                      lists<s, q>(), s == q};
     }
     template <bool from_start, class... F>
     void advance_from(Fields<F...> set, double dt)
@@ -553,6 +584,8 @@ private:
     {
         auto const& p = mobile();
         using Q = ParticlesOf<0>;
+        Vec<dim, V> least_x{}, most_x{}, least_v{}, most_v{};
+        for (int c = 0; c < dim; ++c) least_x[c] = most_x[c] = least_v[c] = most_v[c] = V(0);
         V v2(0), a2(0), x2(0), least(std::numeric_limits<T>::max()), most(0), poison(0);
         for (std::size_t i = first; i < last; i += std::size_t(width<V>)) {
             const auto x = p.template load_at<V>(position, i);
@@ -560,6 +593,10 @@ private:
             const auto moved = x - p.template load_at<V>(build_position, i);
             const V d2 = moved.squaredNorm(), s2 = v.squaredNorm();
             x2 = max(d2, x2), v2 = max(s2, v2);
+            for (int c = 0; c < dim; ++c) {
+                least_x[c] = min(moved[c], least_x[c]), most_x[c] = max(moved[c], most_x[c]);
+                least_v[c] = min(v[c], least_v[c]), most_v[c] = max(v[c], most_v[c]);
+            }
             poison += V(0) * (d2 + s2);
             if constexpr (Q::template has<Acceleration>) {
                 const V n2 = p.template load_at<V>(acceleration, i).squaredNorm();
@@ -574,6 +611,12 @@ private:
         e.speed = std::sqrt(double(largest(v2)));
         e.acceleration = std::sqrt(double(largest(a2)));
         e.moved = std::sqrt(double(largest(x2)));
+        for (int c = 0; c < dim; ++c) {
+            const auto k = std::size_t(c);
+            e.least_move[k] = -double(largest(V(V(0) - least_x[c]))), e.most_move[k] = double(largest(most_x[c]));
+            e.least_velocity[k] = -double(largest(V(V(0) - least_v[c]))),
+            e.most_velocity[k] = double(largest(most_v[c]));
+        }
         e.least_density = -double(largest(V(V(0) - least)));
         e.most_density = double(largest(most));
         alignas(64) T lane[std::size_t(width<V>)];
@@ -596,7 +639,7 @@ private:
         using type = std::tuple<Species<s>...>;
     };
     typename All<std::make_integer_sequence<int, species_count>>::type species_;
-    std::array<Lists<dim>, std::size_t(species_count * species_count)> lists_;
+    std::array<Lists<dim>, std::size_t(species_count* species_count)> lists_;
     bool have_lists_ = false, sorted_markers_ = false, kick_rates_ = false;
     std::int64_t rebuilds_ = 0, evaluations_ = 0, pairs_evaluated_ = 0;
 };

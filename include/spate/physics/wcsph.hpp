@@ -67,7 +67,8 @@ auto completed(X t, ModelConstants<Dim> const& m)
 template <class K, class... T>
 auto wcsph(K kernel, T... term)
 {
-    static_assert(Kernel<K>, "spate: wcsph takes a kernel first: dim, h, radius, sigma(), f(q), g(q); see kernel/kernel.hpp");
+    static_assert(Kernel<K>,
+                  "spate: wcsph takes a kernel first: dim, h, radius, sigma(), f(q), g(q); see kernel/kernel.hpp");
     static_assert((int(EquationOfState<T>) + ... + 0) == 1,
                   "spate: wcsph needs exactly one equation of state; add Tait{.rho0, .c0} or LinearEos{.rho0, .c0}");
     const auto m = detail::constants_of<K::dim>(term...);
@@ -76,10 +77,11 @@ auto wcsph(K kernel, T... term)
 
 /// The equation of state among the terms of a physics.
 template <class P>
-    requires requires(P p) { p.terms; }
+requires requires(P p) { p.terms; }
 auto const& equation_of_state(P const& physics)
 {
-    return std::apply([](auto const&... t) -> auto const& { return detail::first_of(detail::is_eos, t...); }, physics.terms);
+    return std::apply(
+        [](auto const&... t) -> auto const& { return detail::first_of(detail::is_eos, t...); }, physics.terms);
 }
 template <class P>
 inline constexpr bool has_equation_of_state = []<class... T>(std::tuple<T...> const*) {

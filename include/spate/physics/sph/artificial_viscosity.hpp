@@ -16,9 +16,8 @@ struct ArtificialViscosity {
     static constexpr Fields reads{velocity, density};
     static constexpr Fields reads_j{mass};
     static constexpr Fields adds{acceleration};
-    double alpha;            ///< [-], Monaghan 1992: 0.01 to 0.1
-    double c0 = from_model;  ///< speed of sound [m/s]
-    double eps = 0.01;       ///< keeps the quotient finite at r = 0 [-]
+    double alpha;           ///< [-], Monaghan 1992: 0.01 to 0.1
+    double c0 = from_model; ///< speed of sound [m/s]
 
     void check() const
     {
@@ -26,14 +25,17 @@ struct ArtificialViscosity {
         require_positive("ArtificialViscosity.c0", c0, "m/s");
     }
     /// [m^2/s]
-    [[nodiscard]] double kinematic_viscosity(double, double h, int dim) const { return alpha * c0 * h / (2 * (dim + 2)); }
+    [[nodiscard]] double kinematic_viscosity(double, double h, int dim) const
+    {
+        return alpha * c0 * h / (2 * (dim + 2));
+    }
 
     void operator()(auto& i, auto const& j, auto const& ij) const
     {
         const auto vx = (i[velocity] - j[velocity]).dot(ij.x);
-        const auto mu = min(vx, 0) * ij.h / (ij.r2 + eps * (ij.h * ij.h)); // 0 where the pair parts
+        const auto mu = min(vx, 0) * ij.h * ij.over_r2; // 0 where the pair parts
         const auto rho = 0.5 * (i[density] + j[density]);
-        i[acceleration] += (j[mass] * (alpha * c0 * mu / rho)) * ij.grad_w;
+        i[acceleration] += (alpha * c0 * j[mass] * mu / rho) * ij.grad_w;
     }
 };
 

@@ -31,7 +31,8 @@ struct Continuity<1> {
     static constexpr Fields adds{density_rate};
     void operator()(auto& i, auto const& j, auto const& ij) const
     {
-        i[density_rate] += i[density] * (j[mass] / j[density]) * (i[velocity] - j[velocity]).dot(ij.grad_w);
+        const auto V_j = j[mass] * (1 / j[density]);
+        i[density_rate] += i[density] * V_j * (i[velocity] - j[velocity]).dot(ij.grad_w);
     }
 };
 

@@ -13,7 +13,7 @@
 namespace spate {
 
 /// Density diffusion (Molteni & Colagrossi 2009, eq. 5): d rho_i/dt += delta h c0 sum_j m_j/rho_j psi_ij . grad W_ij,
-/// psi_ij = 2 (rho_i - rho_j) x_ij / (r^2 + eps h^2). Drives a drift at a free surface under gravity.
+/// psi_ij = 2 (rho_i - rho_j) x_ij / (r^2 + 0.01 h^2). Drives a drift at a free surface under gravity.
 /// Mobile <- mobile only, so that it moves no mass into a wall.
 struct MolteniColagrossi {
     static constexpr Fields reads{density};
@@ -22,7 +22,6 @@ struct MolteniColagrossi {
     static constexpr Between between{Role::mobile, Role::mobile};
     double delta = 0.1;     ///< [-], 0.05 to 0.2
     double c0 = from_model; ///< speed of sound [m/s]
-    double eps = 0.01;      ///< keeps the quotient finite at r = 0 [-]
 
     void check() const
     {
@@ -31,8 +30,9 @@ struct MolteniColagrossi {
     }
     void operator()(auto& i, auto const& j, auto const& ij) const
     {
-        const auto psi = 2 * (i[density] - j[density]) / (ij.r2 + eps * (ij.h * ij.h));
-        i[density_rate] += delta * c0 * ij.h * (j[mass] / j[density]) * psi * ij.x.dot(ij.grad_w);
+        const auto V_j = j[mass] * (1 / j[density]);
+        const auto psi_x = 2 * (i[density] - j[density]) * ij.over_r2; // psi = psi_x x
+        i[density_rate] += delta * c0 * ij.h * V_j * psi_x * ij.x.dot(ij.grad_w);
     }
 };
 
@@ -50,7 +50,6 @@ struct Fourtakas {
     double rho0 = from_model; ///< reference density [kg/m^3]
     Vec<Dim, double> g{};     ///< gravity [m/s^2]
     double curvature = 0;     ///< gamma - 1 of the equation of state: 6 for Tait, 0 for a linear one
-    double eps = 0.01;        ///< keeps the quotient finite at r = 0 [-]
 
     void check() const
     {
@@ -64,8 +63,9 @@ struct Fourtakas {
         for (int c = 1; c < Dim; ++c) gx = gx + g[c] * ij.x[c];
         const auto s = gx * (1 / (c0 * c0)); // p_H / (rho0 c0^2); (1 + gamma s)^(1/gamma) - 1 = s - ...
         const auto rho_H = rho0 * (s * (1 - s * (0.5 * curvature - s * (curvature * (2 * curvature + 1) / 6))));
-        const auto psi = 2 * ((i[density] - j[density]) - rho_H) / (ij.r2 + eps * (ij.h * ij.h));
-        i[density_rate] += delta * c0 * ij.h * (j[mass] / j[density]) * psi * ij.x.dot(ij.grad_w);
+        const auto V_j = j[mass] * (1 / j[density]);
+        const auto psi_x = 2 * ((i[density] - j[density]) - rho_H) * ij.over_r2; // psi = psi_x x
+        i[density_rate] += delta * c0 * ij.h * V_j * psi_x * ij.x.dot(ij.grad_w);
     }
 };
 

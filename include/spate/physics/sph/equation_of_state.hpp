@@ -7,6 +7,7 @@
 
 namespace spate {
 
+// clang-format off
 template <class E>
 concept EquationOfState = requires(E const e, double x) {
     { e.rho0 } -> std::convertible_to<double>;           // reference density [kg/m^3]
@@ -16,5 +17,6 @@ concept EquationOfState = requires(E const e, double x) {
     { e.hydrostatic_density(x) } -> std::same_as<double>; // rho where the potential is g z [m^2/s^2] below the surface
     { e.energy_of(x) } -> std::same_as<double>;          // compressive energy e(rho) [J/kg]
 };
+// clang-format on
 
 } // namespace spate

@@ -20,9 +20,8 @@ struct PressureForce<2> {
     static constexpr Fields adds{acceleration};
     void operator()(auto& i, auto const& j, auto const& ij) const
     {
-        const auto f_i = i[pressure] / (i[density] * i[density]);
-        const auto f_j = j[pressure] / (j[density] * j[density]);
-        i[acceleration] -= (j[mass] * (f_i + f_j)) * ij.grad_w;
+        const auto v_i = 1 / i[density], v_j = 1 / j[density]; // specific volumes
+        i[acceleration] -= (j[mass] * (i[pressure] * (v_i * v_i) + j[pressure] * (v_j * v_j))) * ij.grad_w;
     }
 };
 /// sigma = 1: dv_i/dt = -sum_j m_j (p_i + p_j)/(rho_i rho_j) grad W_ij.
@@ -33,7 +32,8 @@ struct PressureForce<1> {
     static constexpr Fields adds{acceleration};
     void operator()(auto& i, auto const& j, auto const& ij) const
     {
-        i[acceleration] -= (j[mass] * (i[pressure] + j[pressure]) / (i[density] * j[density])) * ij.grad_w;
+        const auto v_i = 1 / i[density], v_j = 1 / j[density]; // specific volumes
+        i[acceleration] -= (j[mass] * (i[pressure] + j[pressure]) * (v_i * v_j)) * ij.grad_w;
     }
 };
 

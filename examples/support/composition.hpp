@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief The policies that examples/run.sh chooses before an example is compiled, under names that a scene can use.
+#pragma once
+
+#include <concepts>
+
+#include <spate/spate.hpp>
+
+#ifndef SPATE_DIM
+#define SPATE_DIM 3
+#endif
+#ifndef SPATE_KERNEL
+#define SPATE_KERNEL CubicSpline
+#endif
+#ifndef SPATE_INTEGRATOR
+#define SPATE_INTEGRATOR RungeKutta2
+#endif
+#ifndef SPATE_PRECISION
+#define SPATE_PRECISION Double
+#endif
+#ifndef SPATE_WALL
+#define SPATE_WALL Adami{.suction = false}
+#endif
+#ifndef SPATE_BACKEND
+#define SPATE_BACKEND Threads
+#endif
+
+namespace scene {
+
+inline constexpr int dim = SPATE_DIM;
+using Kernel = spate::SPATE_KERNEL<dim>;
+using Integrator = spate::SPATE_INTEGRATOR;
+using Precision = spate::SPATE_PRECISION;
+inline constexpr auto wall = spate::SPATE_WALL;
+using Backend = spate::SPATE_BACKEND;
+
+#define SPATE_TEXT_OF(...) #__VA_ARGS__
+#define SPATE_TEXT(...) SPATE_TEXT_OF(__VA_ARGS__)
+inline constexpr char const* wall_text = SPATE_TEXT(SPATE_WALL);
+#undef SPATE_TEXT
+#undef SPATE_TEXT_OF
+
+/// Smoothing length over spacing: Wendland's kernel is exact enough on wide supports only (docs/models).
+inline constexpr double smoothing = std::same_as<Kernel, spate::WendlandC2<dim>> ? (dim == 3 ? 1.5 : 2.0) : 1.2;
+
+/// The backend with the numbers of the command line.
+inline Backend backend(int threads, int cell)
+{
+    if constexpr (requires { Backend{.count = threads, .cell = cell}; }) return {.count = threads, .cell = cell};
+    else {
+        spate::require(threads <= 1, "threads", threads, "1 with this backend");
+        return {.cell = cell};
+    }
+}
+
+/// Along the last axis, which points up: `Gravity<dim>{scene::down(9.81)}`.
+inline spate::Vec<dim, double> down(double g)
+{
+    spate::Vec<dim, double> v{};
+    v[dim - 1] = -g;
+    return v;
+}
+
+}  // namespace scene

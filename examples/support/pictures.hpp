@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief Pictures of a run: particles to scale, coloured by speed, wall markers as a ghost.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <spate/io/detail/every.hpp>
+#include <spate/io/picture.hpp>
+#include <spate/physics/wcsph.hpp>
+
+namespace example {
+
+/// An output of Simulation::run: NAME.png of the last state and, if asked for, NAME_000001.png, ... on the way.
+class Pictures {
+public:
+    Pictures(std::filesystem::path directory, std::string name, double every)
+        : directory_(std::move(directory)), name_(std::move(name)), interval_(every), every_(every)
+    {
+        spate::require_non_negative("picture-every", every, "s");
+    }
+    void begin(auto& scene) { step(scene); }
+    void step(auto& scene)
+    {
+        if (interval_ <= 0 || !every_.due(scene.time())) return;
+        std::string number = std::to_string(count_++);
+        number.insert(0, 6 - std::min<std::size_t>(6, number.size()), '0');
+        draw(scene, name_ + "_" + number + ".png");
+    }
+    void end(auto& scene) { draw(scene, name_ + ".png"); }
+    [[nodiscard]] std::filesystem::path file() const { return directory_ / (name_ + ".png"); }
+
+private:
+    /// The ball that a particle fills: a grain's own radius, else that of the volume m/rho0.
+    template <class Scene>
+    static double radius_of(Scene const& scene, auto const& p, std::size_t i)
+    {
+        using P = std::remove_cvref_t<decltype(p)>;
+        using Physics = std::remove_cvref_t<decltype(scene.physics())>;
+        constexpr int dim = Scene::dim;
+        if constexpr (P::template has<spate::Radius>) return p.at(spate::radius, i);
+        else if constexpr (spate::has_equation_of_state<Physics> && P::template has<spate::Mass>) {
+            const double volume = p.at(spate::mass, i) / spate::equation_of_state(scene.physics()).rho0;
+            constexpr std::array unit{2.0, std::numbers::pi, 4 * std::numbers::pi / 3};
+            return std::pow(volume / unit[std::size_t(dim - 1)], 1.0 / dim);
+        }
+        else return scene.physics().interaction.range() / 4;
+    }
+    template <class Scene>
+    static std::vector<spate::io::Ball> balls_of(Scene const& scene)
+    {
+        std::vector<spate::io::Ball> balls;
+        scene.system().each_species([&](auto s) {
+            auto const& p = scene.system().template species<s()>().particles;
+            for (std::size_t i = 0; i < p.size(); ++i) {
+                spate::io::Ball ball{{0, 0, 0}, float(radius_of(scene, p, i)), 0, s() != 0};
+                const auto x = p.at(spate::position, i);
+                for (int c = 0; c < Scene::dim; ++c) ball.x[c] = float(x[c]);
+                if constexpr (s() == 0) ball.value = float(std::sqrt(p.at(spate::velocity, i).squaredNorm()));
+                balls.push_back(ball);
+            }
+        });
+        return balls;
+    }
+    template <class Scene>
+    void draw(Scene const& scene, std::string const& file)
+    {
+        spate::io::Picture picture;
+        std::array<char, 80> title{};
+        std::snprintf(title.data(), title.size(), "%.40s   t = %.3f s", name_.c_str(), scene.time());
+        picture.title = title.data();
+        picture.value_name = "speed";
+        picture.unit = "m/s";
+        picture.dim = Scene::dim < 3 ? 2 : 3;
+        if (Scene::dim == 2) picture.axes = {"x", "z", ""};
+        picture.value_min = 0;
+        if constexpr (spate::has_equation_of_state<std::remove_cvref_t<decltype(scene.physics())>>)
+            picture.value_max = spate::equation_of_state(scene.physics()).c0 / 10;  // the fastest flow that c0 was chosen for
+        spate::io::write_png(directory_ / file, picture, balls_of(scene));
+    }
+
+    std::filesystem::path directory_;
+    std::string name_;
+    double interval_;  ///< [s]
+    spate::io::detail::Every every_;
+    int count_ = 0;
+};
+
+}  // namespace example

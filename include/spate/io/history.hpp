@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief history.csv: energies, momentum, extremes and whatever is measured, one row at even times.
+///        Not the state of the particles: those are snapshots.
+#pragma once
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+#include "spate/core/errors.hpp"
+#include "spate/core/fields.hpp"
+#include "spate/io/detail/every.hpp"
+#include "spate/io/detail/replace_file.hpp"
+#include "spate/io/output_error.hpp"
+
+namespace spate::io {
+
+namespace detail {
+
+/// One line of a table, its cells separated by commas; numbers as the shortest decimal that reads back as the same.
+class Row {
+public:
+    void add(std::string_view word) { (text_ += text_.empty() ? "" : ",") += word; }
+    void add(double value)
+    {
+        std::array<char, 32> cell{};
+        add(std::string_view(cell.data(), std::to_chars(cell.data(), cell.data() + cell.size(), value).ptr));
+    }
+    void add(std::int64_t value) { add(std::string_view(std::to_string(value))); }
+    template <int Dim>
+    void add(Vec<Dim, double> const& value)
+    {
+        for (int c = 0; c < Dim; ++c) add(value[c]);
+    }
+    std::string const& text() const { return text_; }
+
+private:
+    std::string text_;
+};
+
+/// "front" for a number, "force_x", "force_y", ... for a vector.
+inline std::vector<std::string> headings(std::string const& name, double) { return {name}; }
+template <int Dim>
+std::vector<std::string> headings(std::string const& name, Vec<Dim, double>)
+{
+    std::vector<std::string> all;
+    for (int c = 0; c < Dim; ++c) all.push_back(name + "_" + "xyz"[c]);
+    return all;
+}
+
+}  // namespace detail
+
+/// History{directory, 0.001, Front{...}, Probe{...}}: an output of Simulation::run. A column is anything with a name that,
+/// called with the scene, returns a number or a vector. Rows grow in history.csv.tmp and are history.csv when the run ends.
+template <class... Column>
+class History {
+public:
+    /// \param every  interval between two rows [s]; 0: a row each step
+    History(std::filesystem::path const& directory, double every, Column... columns)
+        : file_(directory / "history.csv"), tmp_(file_.string() + ".tmp"), every_(every), columns_(std::move(columns)...)
+    {
+        require_non_negative("History.every", every, "s");
+    }
+    History(History const&) = delete;
+    History& operator=(History const&) = delete;
+    ~History()
+    {
+        if (out_.is_open()) out_.close();  // cut short: the rows stay in the temporary file
+    }
+
+    void begin(auto& scene)
+    {
+        const std::string head = heading(scene);
+        errno = 0;
+        out_.open(tmp_, std::ios::trunc);
+        line(head);
+        write(scene);
+        every_.due(scene.time());
+    }
+    void step(auto& scene)
+    {
+        if (every_.due(scene.time())) write(scene);
+    }
+    void end(auto& scene)
+    {
+        if (!scene.stopped() && written_ != scene.steps()) write(scene);
+        out_.close();
+        if (!out_) throw OutputError(file_, errno);
+        std::error_code error;
+        std::filesystem::rename(tmp_, file_, error);
+        if (error) throw OutputError(file_, error.value());
+        detail::sync_directory(file_);
+    }
+    std::filesystem::path const& file() const { return file_; }
+
+private:
+    template <class Scene>
+    static constexpr bool has_density = std::remove_cvref_t<decltype(std::declval<Scene&>().particles())>::template has<Density>;
+
+    template <class Scene>
+    std::string heading(Scene& scene) const
+    {
+        detail::Row row;
+        std::set<std::string> taken;
+        auto add = [&](std::string const& name) {
+            if (name.empty() || name.find_first_of(",\"\n\r") != std::string::npos)
+                throw BadInput("the name of a column of history.csv", "\"" + name + "\"", "a word without commas and quotes");
+            if (!taken.insert(name).second)
+                throw BadInput("the name of a column of history.csv", "\"" + name + "\" twice", "a name of its own for each");
+            row.add(name);
+        };
+        for (auto* name : {"step", "t", "dt", "dt_criterion", "kinetic", "potential"}) add(name);
+        add(has_density<Scene> ? "compressive" : "elastic");
+        add("dissipated");
+        for (auto const& name : detail::headings("momentum", scene.momentum())) add(name);
+        add("max_speed");
+        if constexpr (has_density<Scene>) add("density_min"), add("density_max");
+        std::apply([&](auto const&... c) { (each_of(detail::headings(c.name, decltype(c(scene)){}), add), ...); }, columns_);
+        return row.text();
+    }
+    static void each_of(std::vector<std::string> const& names, auto const& f)
+    {
+        for (auto const& name : names) f(name);
+    }
+    template <class Scene>
+    void write(Scene& scene)
+    {
+        scene.refresh();
+        const auto e = scene.energy();
+        if (written_ < 0) start_ = e.total();
+        const auto extremes = scene.system().extremes();
+        detail::Row row;
+        row.add(scene.steps());
+        row.add(scene.time());
+        row.add(scene.dt());
+        row.add(scene.criterion());
+        for (double part : {e.kinetic, e.potential, e.internal, start_ - e.total()}) row.add(part);
+        row.add(scene.momentum());
+        row.add(extremes.speed);
+        if constexpr (has_density<Scene>) row.add(extremes.least_density), row.add(extremes.most_density);
+        std::apply([&](auto const&... c) { (row.add(c(scene)), ...); }, columns_);
+        line(row.text());
+        written_ = scene.steps();
+    }
+    void line(std::string const& text)
+    {
+        out_ << text << '\n' << std::flush;
+        if (!out_) throw OutputError(file_, errno);
+    }
+
+    std::filesystem::path file_, tmp_;
+    detail::Every every_;
+    std::tuple<Column...> columns_;
+    std::ofstream out_;
+    double start_ = 0;           ///< total energy of the first row [J]; no wall or force of the library does work unseen
+    std::int64_t written_ = -1;  ///< step of the last row
+};
+
+}  // namespace spate::io

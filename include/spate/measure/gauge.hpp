@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief The height of a free surface over a point.
+#pragma once
+
+#include "spate/core/field.hpp"
+#include "spate/measure/nearest_image.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace spate {
+
+/// How far the highest particle within a smoothing length of the upright line through `foot` is above it, and half a
+/// spacing: over a full box, the depth. The last axis is up. 0 where nothing stands there; spray counts as surface.
+template <int Dim>
+struct Gauge {
+    std::string name;
+    Vec<Dim, double> foot;  ///< [m]
+    double spacing;         ///< of the particles [m]
+
+    double operator()(auto const& scene) const  // [m]
+    {
+        auto const& p = scene.particles();
+        const double h = scene.physics().interaction.length();
+        double height = 0;
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            auto x = nearest_image(p.at(position, i) - foot, scene.system().grid());
+            const double above = x[Dim - 1] + spacing / 2;
+            x[Dim - 1] = 0;
+            if (x.squaredNorm() <= h * h) height = std::max(height, above);
+        }
+        return height;
+    }
+};
+template <int Dim>
+Gauge(std::string, Vec<Dim, double>, double) -> Gauge<Dim>;
+template <int Dim>
+Gauge(char const*, Vec<Dim, double>, double) -> Gauge<Dim>;
+
+}  // namespace spate

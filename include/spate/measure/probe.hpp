@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief What a sensor at a fixed point reads: the mean of a field over the particles around it.
+#pragma once
+
+#include "spate/core/fields.hpp"
+#include "spate/measure/nearest_image.hpp"
+
+#include <limits>
+#include <string>
+
+namespace spate {
+
+/// Shepard's mean (1968) with the model's kernel over the mobile particles: sum_j V_j F_j W(x - x_j) / sum_j V_j W(x - x_j),
+/// V = m/rho. Of order 0: a sensor on a wall reads the fluid about half a support away from it. NaN where it sees nothing.
+/// Derived fields are those of the last evaluation: refresh() the scene before.
+template <Field F, int Dim>
+struct Probe {
+    std::string name;
+    F field;
+    Vec<Dim, double> at;  ///< [m]
+
+    Value<F, Dim, double> operator()(auto const& scene) const
+    {
+        auto const& p = scene.particles();
+        auto const& interaction = scene.physics().interaction;
+        auto const& kernel = interaction.kernel;
+        const double reach2 = interaction.range() * interaction.range();
+        double weight = 0;
+        auto sum = all(0);
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            const double r2 = nearest_image(at - p.at(position, i), scene.system().grid()).squaredNorm();
+            if (!(r2 < reach2)) continue;
+            const double w = p.at(mass, i) / p.at(density, i) * kernel.f(std::sqrt(r2) / kernel.h);
+            weight += w;
+            sum += w * p.at(field, i);
+        }
+        return weight > 0 ? (1 / weight) * sum : all(std::numeric_limits<double>::quiet_NaN());
+    }
+
+private:
+    static Value<F, Dim, double> all(double value)
+    {
+        Value<F, Dim, double> v;
+        if constexpr (F::rank == 0) v = value;
+        else
+            for (int c = 0; c < Dim; ++c) v[c] = value;
+        return v;
+    }
+};
+template <Field F, int Dim>
+Probe(std::string, F, Vec<Dim, double>) -> Probe<F, Dim>;
+template <Field F, int Dim>
+Probe(char const*, F, Vec<Dim, double>) -> Probe<F, Dim>;
+
+}  // namespace spate

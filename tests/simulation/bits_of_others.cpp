@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The same bits for walls by continuity, a periodic space and grains: threads with packs and a watch against one scalar
+// after the other without a watch.
+#include "scenes.hpp"
+
+#include <functional>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace scenes;
+
+/// \param threaded  of (threads, neighbours), in packs, watched    \param plain  of (neighbours): scalars, not watched
+void same_bits(std::function<Outcome(Threads, Neighbours)> const& threaded,
+               std::function<Outcome(Neighbours)> const& plain)
+{
+    const Outcome reference = plain({});
+    EXPECT_GE(reference.rebuilds, 20);
+    for (int threads : {1, 2, 3, 7}) EXPECT_EQ(threaded({threads, 0}, {}).hash, reference.hash) << threads << " threads";
+    for (int cell : {1, 2, 4, 8, 16}) EXPECT_EQ(threaded({2, cell}, {}).hash, reference.hash) << "cell " << cell;
+    const auto thin = plain({.skin = 0.1, .bins = 1.4, .trigger = 0.08});
+    const auto thick = threaded({2, 0}, {.skin = 0.4, .bins = 1.4, .trigger = 0.08});
+    EXPECT_EQ(thin.hash, thick.hash);
+    EXPECT_NE(thin.hash, reference.hash);
+}
+
+TEST(Bits, OfWallsByContinuity)
+{
+    same_bits([](Threads t, Neighbours n) { return dam_break(Leapfrog{}, ByContinuity{}, t, n); },
+              [](Neighbours n) { return dam_break<ScalarOf<Double>, NoWatch>(Leapfrog{}, ByContinuity{}, Serial{}, n); });
+}
+TEST(Bits, OfAPeriodicSpace)
+{
+    same_bits([](Threads t, Neighbours n) { return vortices(t, n); },
+              [](Neighbours n) { return vortices<NoWatch, ScalarOf<Double>>(Serial{}, n); });
+}
+TEST(Bits, OfGrains)
+{
+    same_bits([](Threads t, Neighbours n) { return discs(t, n); },
+              [](Neighbours n) { return discs<NoWatch, ScalarOf<Double>>(Serial{}, n); });
+}
+
+} // namespace
