@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include <unistd.h>
+
 #include <spate/core/box.hpp>
 
 /// A column of water in the left corner of a tank; the first axis is along, the last one up.
@@ -33,6 +35,19 @@ spate::Box<Dim> box_of(double x, double y, double z)
     else return {{0, 0}, {x, z}};
 }
 
+/// Water and three layers of wall around the tank, about.
+template <int Dim>
+double markers(Column<Dim> const& c)
+{
+    double water = 1, tank = 1, all = 1;
+    for (int k = 0; k < Dim; ++k) {
+        water *= c.water.size()[k] / c.spacing;
+        tank *= c.tank.size()[k] / c.spacing;
+        all *= c.tank.size()[k] / c.spacing + 6;
+    }
+    return water + all - tank;
+}
+
 /// \param name     default, big, small (3D) or 2d (2D)
 /// \param spacing  0: that of the case; else one that divides its boxes [m]
 template <int Dim>
@@ -53,5 +68,8 @@ Column<Dim> column(std::string const& name, double spacing)
                    spate::text(unit) + " m over a whole number, so that it divides the boxes; the nearest is " +
                        spate::text(unit / n) + " m");
     c.spacing = unit / n;
+    const double memory = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));  // [B]
+    spate::require(500 * markers(c) <= memory, "spacing", spacing,  // bytes of a marker, lists included
+                   "one whose " + spate::text(markers(c)) + " particles fit in " + spate::text(memory / 1e9) + " GB of memory");
     return c;
 }

@@ -213,8 +213,9 @@ private:
         void closing(Summary const& s, std::filesystem::path const& directory, std::filesystem::path const& picture) const
         {
             if (quiet) return;
-            std::printf("%s: t = %.4g s after %lld steps in %.1f s (%.1f ns a particle-step, %.2f ns a pair)\n", s.stop.c_str(),
-                        s.time, static_cast<long long>(s.steps), s.wall, s.ns_per_particle_step(), s.ns_per_pair());
+            std::printf("%s: t = %.4g s after %lld steps in %.1f s", s.stop.c_str(), s.time, static_cast<long long>(s.steps), s.wall);
+            if (s.steps > 0) std::printf(" (%.1f ns a particle-step, %.2f ns a pair)", s.ns_per_particle_step(), s.ns_per_pair());
+            std::printf("\n");
             if (s.mach > 0)
                 std::printf("largest Mach number %.3f, largest density change %.2f %%\n", s.mach, 100 * s.density_change);
             std::printf("total energy %.6g J at the start, %.6g J at the end: %+.2f %% of the reference %.6g J\n", s.energy_start,

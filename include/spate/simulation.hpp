@@ -42,6 +42,8 @@ inline constexpr struct Hydrostatic {
 template <class P, class I, class B, class Backend = Serial, class Precision = Double, class W = Watch>
 class Simulation {
     static_assert(Integrator<I>, "spate: the second argument of a Simulation is an integrator, such as RungeKutta2{}");
+    static_assert(std::same_as<std::remove_cvref_t<decltype(std::declval<B const&>().template edges<P::dim>())>, Edges<P::dim>>,
+                  "spate: the boundary has another number of dimensions than the kernel or the grains");
 
 public:
     static constexpr int dim = P::dim;
@@ -93,6 +95,12 @@ public:
         if constexpr (Engine::species_count == 2) wet_markers(box, start);
         prepare();
         return count;
+    }
+    template <int Other, class... Start>
+    std::size_t fill(Box<Other> const&, double, Start...)
+    {
+        static_assert(Other == dim, "spate: the box has another number of dimensions than the kernel or the grains");
+        return 0;
     }
     /// One particle; its index until the next step.
     std::size_t add(Point const& x, Point const& v = {})
@@ -155,7 +163,7 @@ public:
         if (!prepared_) prepare();
         const auto wall = std::chrono::steady_clock::now();
         const std::clock_t cpu = std::clock();
-        const Extremes e = system_.extremes();
+        const Extremes e = system_.template extremes<needs_acceleration>();
         look(e);
         choose_dt(o, e);
         if (system_.stale(e, I::ahead_velocity * dt_, I::ahead_acceleration * dt_ * dt_)) {
@@ -223,6 +231,8 @@ public:
     [[nodiscard]] std::uint64_t state_hash() const { return system_.state_hash(); }
 
 private:
+    static constexpr bool needs_acceleration = has_equation_of_state<P> || I::ahead_acceleration > 0;
+
     static P const& checked(P const& physics, B const& boundary, Backend const& backend, Neighbours const& n)
     {
         physics.check();
@@ -312,7 +322,7 @@ private:
     }
     Grid<dim> make_grid() const
     {
-        const int by_dimension[] = {64, 8, 4};
+        const int by_dimension[] = {64, 16, 4};
         const int cell = system_.backend().cell > 0 ? system_.backend().cell : by_dimension[dim - 1];
         auto box = system_.boundary().template box<dim>();
         if (!box) {

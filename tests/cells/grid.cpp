@@ -33,7 +33,8 @@ TEST(Grid, FillsAPeriodWithWholeRangesNoShorterThanTheRange)
 {
     std::mt19937 random(1);
     for (int trial = 0; trial < 500; ++trial) {
-        const double range = 0.1 + double(random() % 1000) * 1e-3, length = range * (1 + double(random() % 1000) * 1e-2);
+        const double range = 0.1 + double(random() % 1000) * 1e-3,
+                     length = range * (1 + double(random() % 1000) * 1e-2);
         const int finer = 1 + int(random() % 8);
         const Grid<1> g(Box<1>{{0}, {length}}, Edges<1>(Edge::periodic), range, finer, 2);
         EXPECT_EQ(g.bins(0) % finer, 0);
@@ -69,7 +70,8 @@ TEST(Grid, WrapsIntoTheHalfOpenPeriod)
     EXPECT_EQ(g.wrapped(1, -7), -7) << "an open axis does not wrap";
     std::mt19937 random(2);
     for (int trial = 0; trial < 1000; ++trial) {
-        const double x = (double(random()) * 0x1p-32 - 0.5) * std::pow(10, double(random() % 20) - 17) + 4 * (trial % 2);
+        const double x =
+            (double(random()) * 0x1p-32 - 0.5) * std::pow(10, double(random() % 20) - 17) + 4 * (trial % 2);
         const double y = g.wrapped(0, x);
         EXPECT_TRUE(y >= -1 && y < 4) << x;
     }
@@ -79,7 +81,8 @@ TEST(Grid, GivesWhatIsNotACoordinateTheLastIndex)
 {
     const auto g = half_open_grid();
     constexpr std::int32_t last = std::numeric_limits<std::int32_t>::max();
-    for (double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300, -1e300})
+    for (double bad :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e300, -1e300})
         EXPECT_EQ(g.bin(1, bad), last);
 }
 

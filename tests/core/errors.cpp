@@ -61,8 +61,8 @@ TEST(Stop, TellsStepTimeParticleValueAndLimit)
 {
     const NonFinite stop(facts());
     const std::string s = stop.what();
-    for (const char* part : {"NonFinite", "step 42", "t = 0.25 s", "particle 7 of species 0", "(0.5, 0, 0) m", "(0, -8, 0) m/s",
-                             "velocity is 3, limit 2", "smaller dt"})
+    for (const char* part : {"NonFinite", "step 42", "t = 0.25 s", "particle 7 of species 0", "(0.5, 0, 0) m",
+                             "(0, -8, 0) m/s", "velocity is 3, limit 2", "smaller dt"})
         EXPECT_THAT(s, HasSubstr(part));
     EXPECT_EQ(stop.name(), "NonFinite");
     EXPECT_EQ(stop.facts().particle, 7);

@@ -13,7 +13,10 @@ static_assert(Field<Heat> && Field<Position>);
 static_assert(!Field<int> && !Field<Fields<Mass>>);
 
 template <class A, class B>
-constexpr bool same(A, B) { return std::same_as<A, B>; }
+constexpr bool same(A, B)
+{
+    return std::same_as<A, B>;
+}
 
 // The algebra of sets, by the compiler.
 static_assert(same(Fields{mass, density}, Fields<Mass, Density>{}));

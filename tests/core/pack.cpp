@@ -46,8 +46,9 @@ TYPED_TEST(PackOf, ComputesEachLaneAsAScalar)
         const auto a = this->draw(-9, 9), b = this->draw(0.1, 9);
         const V x = load<V>(a.x), y = load<V>(b.x);
         const auto sum = this->lanes(V(x + y)), difference = this->lanes(V(x - y)), product = this->lanes(V(x * y)),
-                   quotient = this->lanes(V(x / y)), negative = this->lanes(V(-x)), root = this->lanes(V(spate::sqrt(y))),
-                   less = this->lanes(V(spate::min(x, y))), more = this->lanes(V(spate::max(x, y))), size = this->lanes(V(spate::abs(x))),
+                   quotient = this->lanes(V(x / y)), negative = this->lanes(V(-x)),
+                   root = this->lanes(V(spate::sqrt(y))), less = this->lanes(V(spate::min(x, y))),
+                   more = this->lanes(V(spate::max(x, y))), size = this->lanes(V(spate::abs(x))),
                    chosen = this->lanes(V(spate::where(x < y, x, y))), third = this->lanes(V(2 * x + 0.5));
         for (std::size_t k = 0; k < this->w; ++k) {
             EXPECT_EQ(sum[k], T(a[k] + b[k]));

@@ -137,7 +137,8 @@ TEST(ExactSum, BearsAMillionAddendsWithoutACarry)
 
 TEST(ExactSum, IsNotANumberIfAnAddendIsNotFinite)
 {
-    for (double bad : {std::nan(""), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}) {
+    for (double bad :
+         {std::nan(""), std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()}) {
         EXPECT_TRUE(std::isnan(sum_of({1, bad, 2})));
         ExactSum a, b;
         a.add(1), b.add(bad), a += b;

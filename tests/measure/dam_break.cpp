@@ -48,7 +48,7 @@ TEST(DamBreak, NamesTheNearestSpacingThatDivides)
         EXPECT_STREQ(e.what(), "spate: spacing is 0.019; allowed is 0.15 m over a whole number, so that it divides the boxes; "
                                "the nearest is 0.01875 m");
     }
-    for (double wrong : {-0.01, std::nan(""), 1.0, 1e300}) EXPECT_THROW(column<3>("default", wrong), BadInput) << wrong;
+    for (double wrong : {-0.01, std::nan(""), 1.0, 1e300, 1e-9, 1e-300}) EXPECT_THROW(column<3>("default", wrong), BadInput) << wrong;
     EXPECT_THROW(column<3>("2d", 0), BadInput);
     EXPECT_THROW(column<2>("big", 0), BadInput);
 }

@@ -49,6 +49,7 @@ Scene<Dim> scene(Dice& dice)
     s.h = dice.chance(0.5) ? dice.of(std::array{0.25, 0.5, 1.0, 4.0}) : std::pow(10, dice.real(-4, 3));
     s.neighbours.skin = dice.of(std::array{0.01, 0.05, 0.1, 0.25, 0.3, 1.0, 2.0});
     s.neighbours.finer = dice.of(std::array{1, 2, 3, 4, 7, 16});
+    s.neighbours.window = dice.of(std::array{1, 16, 50});
     if (dice.chance(0.3)) s.neighbours.bins = dice.real(1 + s.neighbours.skin, 4);
     s.cell = dice.of(std::array{0, 1, 1, 2, 3, 4, 8, 16});
     const double reach = s.reach();
@@ -107,7 +108,10 @@ Periodic<Dim> boundary(Scene<Dim> const& s)
 
 /// The largest distance at which a pair may be listed: the lists select in float, from a corner at most
 /// cell + 2 bins away, and widen their reach by a hair for it; the hair and the rounding once more.
-double most(double reach, double bin, int cell) { return reach * (1 + 5e-6) + 1e-6 * (cell + 2) * std::max(bin, reach); }
+double most(double reach, double bin, int cell)
+{
+    return reach * (1 + 5e-6) + 1e-6 * (cell + 2) * std::max(bin, reach);
+}
 
 template <int Dim>
 auto key_of(Entry const& e, auto const& source, Grid<Dim> const& grid)
@@ -164,8 +168,8 @@ std::size_t expect_all_pairs(auto& system)
         oracle::each_entry(system.template lists<s, q>(), target.bins, source.bins, source.particles.size(),
                            width<typename System::V>, [&](Entry const& e) {
                                listed.push_back({target.particles.id()[e.i], source.particles.id()[e.j], e.shift});
-                               too_far += !(oracle::distance2<Dim>(target.particles, e.i, source.particles, e.j, e.shift,
-                                                                   period) < limit * limit);
+                               too_far += !(oracle::distance2<Dim>(target.particles, e.i, source.particles, e.j,
+                                                                   e.shift, period) < limit * limit);
                                const auto key = key_of<Dim>(e, source.particles, grid);
                                out_of_order += e.i == target_of_last && !(last < key);
                                target_of_last = e.i, last = key;
@@ -223,9 +227,9 @@ TYPED_TEST(NeighbourLists, EqualAllPairs)
         sim.system().rebuild();
         of_kind[std::size_t(s.kind)] += expect_all_pairs<0, 0>(sim.system());
         if (this->HasFailure()) {
-            FAIL() << "case " << k << ": kind " << int(s.kind) << ", " << s.x.size() << " particles, range " << s.range()
-                   << ", skin " << s.neighbours.skin << ", bins " << s.neighbours.bins << ", finer " << s.neighbours.finer
-                   << ", cell " << s.cell << ", open " << s.open[0] << s.open[1] << s.open[2];
+            FAIL() << "case " << k << ": kind " << int(s.kind) << ", " << s.x.size() << " particles, range "
+                   << s.range() << ", skin " << s.neighbours.skin << ", bins " << s.neighbours.bins << ", finer "
+                   << s.neighbours.finer << ", cell " << s.cell << ", open " << s.open[0] << s.open[1] << s.open[2];
         }
     }
     for (std::size_t n : of_kind) EXPECT_GT(n, std::size_t(cases)); // the scenes are not empty

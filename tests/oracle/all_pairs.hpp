@@ -33,7 +33,8 @@ double distance2(auto const& target, std::size_t i, auto const& source, std::siz
 
 /// All directed pairs nearer than a distance, sorted; `period` is 0 along open axes.
 template <int Dim>
-std::vector<Pair> all_pairs(auto const& target, auto const& source, bool same, Vec<Dim, double> const& period, double reach)
+std::vector<Pair> all_pairs(auto const& target, auto const& source, bool same, Vec<Dim, double> const& period,
+                            double reach)
 {
     std::vector<Pair> pairs;
     auto one = [&](std::size_t i, std::size_t j, std::array<int, 3> const& s) {

@@ -43,7 +43,8 @@ inline std::vector<Row> table(std::string const& name)
             continue;
         }
         if (c.size() != names.size()) throw std::runtime_error("a row of " + name + " has another number of columns");
-        for (std::size_t k = 0; k < c.size(); ++k) k == 0 ? rows.push_back({{names[k], c[k]}}) : void(rows.back()[names[k]] = c[k]);
+        for (std::size_t k = 0; k < c.size(); ++k)
+            k == 0 ? rows.push_back({{names[k], c[k]}}) : void(rows.back()[names[k]] = c[k]);
     }
     return rows;
 }

@@ -191,12 +191,14 @@ TYPED_TEST(Conservation, OfTheVolumeWeightedSumByDensityDiffusion)
     EXPECT_LE(volume_weighted(whole.particles()), rounding(whole.particles()));
     this->note("molteni", volume_weighted(whole.particles()));
 
-    auto linear = random_state<dim>(Open{}, Fourtakas<dim>{.delta = 0.1, .c0 = c0, .rho0 = rho0, .g = g, .curvature = 0});
+    auto linear =
+        random_state<dim>(Open{}, Fourtakas<dim>{.delta = 0.1, .c0 = c0, .rho0 = rho0, .g = g, .curvature = 0});
     EXPECT_LE(volume_weighted(linear.particles()), rounding(linear.particles()));
     this->note("fourtakas", volume_weighted(linear.particles()));
 
     // With Tait's curvature rho_H(x_ij) is not odd: (gamma - 1)/2 s^2 of rho0 is left of a pair, s = g . x/c0^2.
-    auto curved = random_state<dim>(Open{}, Fourtakas<dim>{.delta = 0.1, .c0 = c0, .rho0 = rho0, .g = g, .curvature = 6});
+    auto curved =
+        random_state<dim>(Open{}, Fourtakas<dim>{.delta = 0.1, .c0 = c0, .rho0 = rho0, .g = g, .curvature = 6});
     const double s = 9.81 * 3.2 * dx / (c0 * c0), left = 3 * s * s / 0.01; // against a noise of about a hundredth
     EXPECT_GT(volume_weighted(curved.particles()), rounding(curved.particles()));
     EXPECT_LE(volume_weighted(curved.particles()), left);
@@ -260,7 +262,8 @@ auto scene(State<Dim> const& s)
     Simulation sim(physics(Smoothing<CubicSpline<Dim>>{{.h = 1.3 * dx}}, Uniform{mass, rho0 * std::pow(dx, Dim)}, tait,
                            Continuity<2>{}, PressureForce<2>{}, LaminarViscosity{.mu = 1},
                            ArtificialViscosity{.alpha = 0.05, .c0 = c0},
-                           Fourtakas<Dim>{.delta = 0.1, .c0 = c0, .rho0 = rho0, .g = s.g, .curvature = 6}, Gravity<Dim>{s.g}),
+                           Fourtakas<Dim>{.delta = 0.1, .c0 = c0, .rho0 = rho0, .g = s.g, .curvature = 6},
+                           Gravity<Dim>{s.g}),
                    RungeKutta2{}, Open{});
     for (std::size_t i = 0; i < s.x.size(); ++i) {
         sim.add(s.x[i], s.v[i]);
@@ -407,7 +410,8 @@ TYPED_TEST(Symmetry, UnderPermutation)
     oracle::Dice dice(1);
     std::vector<std::size_t> order(s.x.size());
     std::iota(order.begin(), order.end(), std::size_t(0));
-    for (std::size_t k = order.size(); k > 1; --k) std::swap(order[k - 1], order[std::size_t(dice.integer(0, int(k) - 1))]);
+    for (std::size_t k = order.size(); k > 1; --k)
+        std::swap(order[k - 1], order[std::size_t(dice.integer(0, int(k) - 1))]);
     State<dim> shuffled = s, renamed = s;
     for (std::size_t k = 0; k < order.size(); ++k) {
         shuffled.x[k] = s.x[order[k]], shuffled.v[k] = s.v[order[k]], shuffled.rho[k] = s.rho[order[k]];

@@ -97,8 +97,8 @@ auto lattice(double h_over_dx, double dx, std::array<int, 3> n, double viscosity
         box.hi[c] = (least + period - 1) / period * period * dx;
     }
     const double volume = std::pow(dx, Dim);
-    const auto model = physics(Smoothing<K>{{.h = h_over_dx * dx}}, Uniform{mass, volume}, Uniform{density, 1}, Consistency{},
-                               Smooth{}, LaminarViscosity{.mu = 1, .eps = viscosity_eps});
+    const auto model = physics(Smoothing<K>{{.h = h_over_dx * dx}}, Uniform{mass, volume}, Uniform{density, 1},
+                               Consistency{}, Smooth{}, LaminarViscosity{.mu = 1, .eps = viscosity_eps});
     return Simulation(model, ForwardEuler{}, Periodic(box), Serial{}, Precision{}, Watch{}, neighbours);
 }
 template <int Dim>
@@ -163,7 +163,8 @@ TYPED_TEST(Lattice, HasTheKnownSumsAndNeighbours)
     ASSERT_EQ(rows.size(), 5u);
     double worst = 0;
     for (auto const& row : rows)
-        for (double dx : {1.0, 0.01}) { // with 1, a neighbour exactly at the support is exactly there, and does not count
+        for (double dx :
+             {1.0, 0.01}) { // with 1, a neighbour exactly at the support is exactly there, and does not count
             auto sim = lattice<typename This::K, typename This::P>(This::number(row, "h_over_dx"), dx, {1, 1, 1});
             fill<dim>(sim, dx, nullptr);
             auto const& p = sim.particles();

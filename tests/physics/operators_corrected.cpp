@@ -43,8 +43,8 @@ inline constexpr struct Fitted : ScalarField    { static constexpr std::string_v
 template <template <int> class R, int Dim>
 constexpr auto all_rows()
 {
-    return []<int... k>(std::integer_sequence<int, k...>) { return Fields<R<k>...>{}; }(
-        std::make_integer_sequence<int, Dim>{});
+    return []<int... k>(std::integer_sequence<int, k...>) { return Fields<R<k>...>{}; }
+    (std::make_integer_sequence<int, Dim>{});
 }
 void each_row(auto set, auto const& f)
 {

@@ -54,6 +54,15 @@ struct AdamiState {
     }
 };
 
+namespace detail {
+template <class T>
+concept GivesDensity = requires(T const t) { t.density_of(1.0); };
+template <class Terms>
+inline constexpr bool any_gives_density = false;
+template <class... T>
+inline constexpr bool any_gives_density<std::tuple<T...>> = (GivesDensity<T> || ...);
+} // namespace detail
+
 /// State of wall markers by extrapolation.
 struct Adami {
     static constexpr const char* name = "adami";
@@ -63,6 +72,8 @@ struct Adami {
     template <class P>
     [[nodiscard]] auto terms(P const& physics) const
     {
+        static_assert(detail::any_gives_density<typename P::Terms>,
+                      "spate: Adami needs an equation of state in the model, such as Tait{.rho0, .c0}");
         constexpr int dim = P::dim;
         auto const& eos = equation_of_state(physics);
         auto const& kernel = physics.interaction.kernel;

@@ -16,9 +16,9 @@ namespace spate {
 /// A periodic image: record n + 1 + k of a species is particle `of[k]` moved by shift `code[k]`.
 struct Images {
     std::vector<std::int32_t> of;
-    std::vector<std::int8_t> code;           ///< base-3 digits per axis: 0 none, 1 up by a period, 2 down
-    std::vector<std::int32_t> first;         ///< first image of particle i (n + 1 entries)
-    std::vector<std::uint8_t> near_face;     ///< two bits an axis: image up, image down
+    std::vector<std::int8_t> code;       ///< base-3 digits per axis: 0 none, 1 up by a period, 2 down
+    std::vector<std::int32_t> first;     ///< first image of particle i (n + 1 entries)
+    std::vector<std::uint8_t> near_face; ///< two bits an axis: image up, image down
 };
 
 template <int Dim>
@@ -205,7 +205,8 @@ template <int Dim>
 Vec<Dim, double> shift_of(int code, Grid<Dim> const& grid)
 {
     Vec<Dim, double> s{};
-    for (int c = 0; c < Dim; ++c, code /= 3) s[c] = code % 3 == 0 ? 0 : code % 3 == 1 ? grid.period(c) : -grid.period(c);
+    for (int c = 0; c < Dim; ++c, code /= 3)
+        s[c] = code % 3 == 0 ? 0 : code % 3 == 1 ? grid.period(c) : -grid.period(c);
     return s;
 }
 

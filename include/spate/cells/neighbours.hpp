@@ -38,6 +38,7 @@ struct CellLists {
     std::vector<std::int32_t> begin, target;
     Array<std::int32_t> index;
     std::int64_t pairs = 0; ///< within range when the lists were built
+    bool in_order = true;   ///< lanes hold targets one after the other
 };
 
 template <int Dim>
@@ -155,6 +156,7 @@ private:
             lists[q]->begin.assign(1, 0);
             lists[q]->target.clear();
             lists[q]->pairs = 0;
+            lists[q]->in_order = window == W;
             open[q].used = 0;
             open[q].stride = 0;
         }
@@ -312,8 +314,11 @@ private:
                         local * grid.bins_of_cell(c) + at[std::size_t(c)] - cell[std::size_t(c)] * grid.bins_of_cell(c);
                 }
                 int stretch = std::min(nx - b, (cell[0] + 1) * grid.bins_of_cell(0) - at[0]);
-                if (grid.periodic(0))
-                    stretch = std::min(stretch, at[0] < grid.bins(0) ? grid.bins(0) - at[0] : stretch);
+                if (grid.periodic(0) &&
+                    exists) { // to the end of the period, or of its images: there is no record beyond
+                    const std::int32_t bins = grid.bins(0), x = corner[0] - reach_x + b;
+                    stretch = std::min(stretch, (x < 0 ? 0 : x < bins ? bins : bins + reach_x) - x);
+                }
                 const std::int32_t k = exists ? of.find(cell) : -1;
                 if (k < 0) {
                     for (int s = 0; s < stretch; ++s) first[b + s] = std::int32_t(near.count);

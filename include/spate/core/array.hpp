@@ -15,8 +15,7 @@ struct Aligned {
     Aligned() = default;
     template <class U>
     Aligned(Aligned<U> const&)
-    {
-    }
+    {}
     T* allocate(std::size_t n)
     {
         constexpr std::size_t past_the_end = 256; // bytes: a whole-vector load may start at the last element

@@ -32,7 +32,7 @@ struct Box {
 
 /// A face of a box: the lower or the upper end of an axis; the last axis points up.
 struct Face {
-    int axis;   ///< 0, 1, 2; -1: the last axis of the space
+    int axis; ///< 0, 1, 2; -1: the last axis of the space
     bool upper;
 };
 inline constexpr Face left{0, false}, right{0, true}, front{1, false}, back{1, true}, bottom{-1, false}, top{-1, true};

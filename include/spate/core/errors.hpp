@@ -15,8 +15,7 @@ namespace spate {
 struct BadInput : std::invalid_argument {
     BadInput(std::string const& parameter, std::string const& value, std::string const& allowed)
         : std::invalid_argument("spate: " + parameter + " is " + value + "; allowed is " + allowed)
-    {
-    }
+    {}
 };
 
 /// A number as a message shows it: the shortest of up to 10 digits.
@@ -47,12 +46,12 @@ inline void require_non_negative(std::string const& parameter, double value, std
 /// Where a run stopped, and on what.
 struct StopFacts {
     std::int64_t step = 0;
-    double time = 0;                  ///< [s]
-    std::int64_t particle = -1;       ///< id, -1 where the whole scene is meant
-    int species = -1;                 ///< its species
-    double position[3] = {0, 0, 0};   ///< [m]
-    double velocity[3] = {0, 0, 0};   ///< [m/s]
-    std::string quantity;             ///< the field or measure that broke its limit
+    double time = 0;                ///< [s]
+    std::int64_t particle = -1;     ///< id, -1 where the whole scene is meant
+    int species = -1;               ///< its species
+    double position[3] = {0, 0, 0}; ///< [m]
+    double velocity[3] = {0, 0, 0}; ///< [m/s]
+    std::string quantity;           ///< the field or measure that broke its limit
     double value = 0;
     double limit = 0;
 };
@@ -62,8 +61,7 @@ class Stop : public std::runtime_error {
 public:
     Stop(std::string name, StopFacts facts, std::string const& advice)
         : std::runtime_error(sentence(name, facts, advice)), name_(std::move(name)), facts_(std::move(facts))
-    {
-    }
+    {}
     [[nodiscard]] std::string const& name() const { return name_; }
     [[nodiscard]] StopFacts const& facts() const { return facts_; }
 
@@ -85,46 +83,43 @@ private:
 };
 struct NonFinite : Stop {
     explicit NonFinite(StopFacts f)
-        : Stop("NonFinite", std::move(f), "take a smaller dt or cfl, or look at the start of the run near this particle")
-    {
-    }
+        : Stop("NonFinite", std::move(f),
+               "take a smaller dt or cfl, or look at the start of the run near this particle")
+    {}
 };
 struct OutOfDomain : Stop {
     explicit OutOfDomain(StopFacts f)
-        : Stop("OutOfDomain", std::move(f), "the particle went through a wall: take a smaller dt or cfl, or a finer wall")
-    {
-    }
+        : Stop("OutOfDomain", std::move(f),
+               "the particle went through a wall: take a smaller dt or cfl, or a finer wall")
+    {}
 };
 struct EnergyRunaway : Stop {
     explicit EnergyRunaway(StopFacts f)
         : Stop("EnergyRunaway", std::move(f),
                "the scheme creates energy: take a smaller dt, another integrator, or more dissipation")
-    {
-    }
+    {}
 };
 struct DtCollapse : Stop {
     explicit DtCollapse(StopFacts f)
-        : Stop("DtCollapse", std::move(f), "speeds or accelerations have grown a thousandfold: look at the last snapshot")
-    {
-    }
+        : Stop("DtCollapse", std::move(f),
+               "speeds or accelerations have grown a thousandfold: look at the last snapshot")
+    {}
 };
 struct IndexOverflow : Stop {
     explicit IndexOverflow(StopFacts f)
-        : Stop("IndexOverflow", std::move(f), "a particle is too far from the origin for the cell index: bound the domain")
-    {
-    }
+        : Stop("IndexOverflow", std::move(f),
+               "a particle is too far from the origin for the cell index: bound the domain")
+    {}
 };
 struct NeighbourOverflow : Stop {
     explicit NeighbourOverflow(StopFacts f)
         : Stop("NeighbourOverflow", std::move(f), "too many particles in one place: look at the start of the run")
-    {
-    }
+    {}
 };
 struct EosDomain : Stop {
     explicit EosDomain(StopFacts f)
         : Stop("EosDomain", std::move(f), "the equation of state has no density for this pressure: take a smaller dt")
-    {
-    }
+    {}
 };
 
 } // namespace spate

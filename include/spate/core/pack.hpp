@@ -44,6 +44,13 @@ struct ScalarOf<xsimd::batch<T, A>> {
 };
 template <class B>
 using scalar_of = typename ScalarOf<B>::type;
+
+template <class T>
+void only_read()
+{
+    static_assert(sizeof(T) == 0, "spate: the term changes a field that it only reads; name it in the term's writes or "
+                                  "adds (a pair term changes i only)");
+}
 } // namespace detail
 
 /// Lanes of a SIMD register (or one scalar) with the operators of a number. Any arithmetic constant converts to it, so
@@ -66,6 +73,19 @@ struct Lanes {
     [[gnu::always_inline]] Lanes& operator+=(Lanes const& y) { return *this = *this + y; }
     [[gnu::always_inline]] Lanes& operator-=(Lanes const& y) { return *this = *this - y; }
     [[gnu::always_inline]] Lanes& operator*=(Lanes const& y) { return *this = *this * y; }
+    template <class U>
+        requires(std::is_arithmetic_v<U>)
+    [[gnu::always_inline]] Lanes& operator=(U value)
+    {
+        return *this = Lanes(value);
+    }
+    // Fields that a term may only read are const: these say so.
+    template <class U>
+        requires(std::same_as<U, Lanes> || std::is_arithmetic_v<U>)
+    void operator=(U const&) const { detail::only_read<U>(); }
+    void operator+=(Lanes const&) const { detail::only_read<B>(); }
+    void operator-=(Lanes const&) const { detail::only_read<B>(); }
+    void operator*=(Lanes const&) const { detail::only_read<B>(); }
     [[gnu::always_inline]] friend auto operator<(Lanes const& x, Lanes const& y) { return x.b < y.b; }
     [[gnu::always_inline]] friend auto operator>(Lanes const& x, Lanes const& y) { return x.b > y.b; }
     [[gnu::always_inline]] friend auto operator<=(Lanes const& x, Lanes const& y) { return x.b <= y.b; }
@@ -172,14 +192,14 @@ template <class V>
     store(lane, v);
     for (int k = 0; k < lanes; ++k) p[k] = lane[k];
 }
-/// The largest lane; a NaN in a lane may be lost (the watch looks for NaN by itself).
+/// The largest of the first lanes; a NaN in a lane may be lost (the watch looks for NaN by itself).
 template <class V>
-[[gnu::always_inline]] inline scalar_t<V> largest(V const& v)
+[[gnu::always_inline]] inline scalar_t<V> largest(V const& v, int lanes = width<V>)
 {
     alignas(64) scalar_t<V> lane[std::size_t(width<V>)];
     store(lane, v);
     scalar_t<V> m = lane[0];
-    for (int k = 1; k < width<V>; ++k) m = lane[k] > m ? lane[k] : m;
+    for (int k = 1; k < lanes; ++k) m = lane[k] > m ? lane[k] : m;
     return m;
 }
 

@@ -126,6 +126,14 @@ public:
         else
             for (int c = 0; c < Dim; ++c) store_first(a[c].data() + i, v[c], lanes);
     }
+    /// The record of particles i, i + 1, ...
+    template <class V, class... G>
+    [[gnu::always_inline]] auto record_at(Fields<G...>, std::int32_t i) const
+    {
+        Record<Dim, V, Fields<G...>> r;
+        ((r[G{}] = load_at<V>(G{}, std::size_t(i))), ...);
+        return r;
+    }
     /// The record of particles first + target[0], first + target[1], ...
     template <class V, class... G>
     [[gnu::always_inline]] auto record_of(Fields<G...>, std::int32_t first, std::int32_t const* target) const

@@ -25,9 +25,15 @@ struct Any {};
 } // namespace detail
 
 template <class T>
-constexpr auto reads_i() { return detail::reads_both<T>() | detail::only_i<T>(); }
+constexpr auto reads_i()
+{
+    return detail::reads_both<T>() | detail::only_i<T>();
+}
 template <class T>
-constexpr auto reads_j() { return detail::reads_both<T>() | detail::only_j<T>(); }
+constexpr auto reads_j()
+{
+    return detail::reads_both<T>() | detail::only_j<T>();
+}
 template <class T>
 constexpr auto writes()
 {
@@ -47,7 +53,10 @@ constexpr auto keeps()
     else return Fields<>{};
 }
 template <class T>
-inline constexpr bool has_self = requires { requires T::self; };
+inline constexpr bool has_self = requires
+{
+    requires T::self;
+};
 
 /// The part a species plays: mobile ones obey the equations of motion, markers belong to a boundary.
 enum class Role { any, mobile, marker };
@@ -70,9 +79,15 @@ constexpr When when()
 }
 
 template <class T>
-concept PairTerm = requires(T const t, detail::Any& a) { t(a, a, a); };
+concept PairTerm = requires(T const t, detail::Any& a)
+{
+    t(a, a, a);
+};
 template <class T>
-concept ParticleTerm = requires(T const t, detail::Any& a) { t(a); };
+concept ParticleTerm = requires(T const t, detail::Any& a)
+{
+    t(a);
+};
 template <class T>
 concept Term = PairTerm<T> || ParticleTerm<T>;
 
@@ -115,6 +130,9 @@ struct View {
         else if constexpr (keeps_it) return slot(*kept, f);
         else if constexpr (read && R::template has<F>) return (record[f]);
         else if constexpr (read && U::template has<F>) return (uniform[f]);
+        else if constexpr (std::is_void_v<S>)
+            static_assert(read && !read, "spate: the term uses a field of j that it does not declare; name it in reads or "
+                                         "reads_j, for an interaction in its reads; a pair term changes i only");
         else
             static_assert(read && !read, "spate: the term uses a field that it does not declare; name it in the term's "
                                          "reads, writes, adds or keeps");
@@ -159,7 +177,7 @@ struct ParticleView {
         }
     };
     template <Field F>
-    [[gnu::always_inline]] auto operator[](F f) const
+    [[gnu::always_inline]] decltype(auto) operator[](F f) const
     {
         if constexpr (writes<T>().template contains<F> || adds<T>().template contains<F>)
             return Reference<F>{particles, i};
@@ -167,8 +185,15 @@ struct ParticleView {
             static_assert(reads_i<T>().template contains<F>,
                           "spate: the term uses a field that it does not declare; name it in the term's reads, writes, "
                           "adds or keeps");
-            return particles.template load_at<V>(f, i);
+            return read(f);
         }
+    }
+
+private:
+    template <Field F>
+    [[gnu::always_inline]] Value<F, P::dim, V> const read(F f) const // const: what is only read can't be assigned to
+    {
+        return particles.template load_at<V>(f, i);
     }
 };
 

@@ -53,6 +53,11 @@ struct Vec {
     [[gnu::always_inline]] friend Vec operator*(Vec const& a, V const& s) { return s * a; }
     [[gnu::always_inline]] Vec& operator+=(Vec const& b) { return *this = *this + b; }
     [[gnu::always_inline]] Vec& operator-=(Vec const& b) { return *this = *this - b; }
+    template <class U>
+        requires(std::same_as<U, Vec>)
+    void operator=(U const&) const { detail::only_read<U>(); }
+    void operator+=(Vec const&) const { detail::only_read<V>(); }
+    void operator-=(Vec const&) const { detail::only_read<V>(); }
     /// A constant vector, the same in all lanes.
     template <class U>
     requires(!std::same_as<U, V> && std::is_arithmetic_v<U>) [[gnu::always_inline]] Vec&

@@ -22,8 +22,7 @@ struct ForwardEuler {
     void step(auto& s, double dt) const
     {
         s.rates(s.all);
-        s.advance(s.drifting, dt); // with the velocity of the start
-        s.advance(s.kicked, dt);
+        s.advance(s.drifting, s.kicked, dt); // positions with the velocity of the start
     }
 };
 

@@ -23,14 +23,16 @@ struct Leapfrog {
     void step(auto& s, double dt) const
     {
         if (!s.kick_rates_current()) s.rates(s.kicked);
-        s.advance(s.kicked, dt / 2);
         if constexpr (decltype(s.driven)::size > 0) {
-            s.advance(s.free, dt / 2);
+            s.advance(s.kicked, s.free, dt / 2);
             s.rates(s.driven);
             s.advance(s.driven, dt);
             s.advance(s.free, dt / 2);
         }
-        else s.advance(s.free, dt);
+        else {
+            s.advance(s.kicked, dt / 2);
+            s.advance(s.free, dt);
+        }
         s.rates(s.kicked);
         s.advance(s.kicked, dt / 2);
         s.keep_kick_rates();

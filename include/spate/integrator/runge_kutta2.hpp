@@ -22,11 +22,9 @@ struct RungeKutta2 {
     {
         s.save();
         s.rates(s.all);
-        s.advance(s.drifting, dt / 2);
-        s.advance(s.kicked, dt / 2);
+        s.advance(s.drifting, s.kicked, dt / 2);
         s.rates(s.all);
-        s.advance_saved(s.drifting, dt); // with the velocity of the half step
-        s.advance_saved(s.kicked, dt);
+        s.advance_saved(s.drifting, s.kicked, dt); // positions with the velocity of the half step
     }
 };
 

@@ -22,9 +22,12 @@ struct SymplecticEuler {
     void step(auto& s, double dt) const
     {
         s.rates(s.kicked);
-        s.advance(s.kicked, dt);
-        s.rates(s.driven);
-        s.advance(s.drifting, dt);
+        if constexpr (decltype(s.driven)::size > 0) {
+            s.advance(s.kicked, dt);
+            s.rates(s.driven);
+            s.advance(s.drifting, dt);
+        }
+        else s.advance(s.kicked, s.drifting, dt);
     }
 };
 

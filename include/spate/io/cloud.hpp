@@ -17,7 +17,7 @@ namespace spate::io {
 /// A field of the particles; a vector in 2D is padded with z = 0.
 struct Column {
     std::string name = {};
-    int components = 1;  ///< 1 or 3
+    int components = 1; ///< 1 or 3
     std::vector<float> values = {};
 };
 
@@ -27,12 +27,12 @@ struct IntegerColumn {
 };
 
 struct Cloud {
-    double time = 0;  ///< [s]
+    double time = 0; ///< [s]
     std::int64_t step = 0;
-    std::vector<float> points = {};  ///< N x 3, padded with z = 0 in 2D  [m]
+    std::vector<float> points = {}; ///< N x 3, padded with z = 0 in 2D  [m]
     std::vector<Column> columns = {};
-    std::vector<std::int64_t> id = {};       ///< N, or empty: not written
-    std::vector<std::uint8_t> species = {};  ///< N, or empty: not written
+    std::vector<std::int64_t> id = {};      ///< N, or empty: not written
+    std::vector<std::uint8_t> species = {}; ///< N, or empty: not written
     std::vector<IntegerColumn> integers = {};
 
     std::size_t size() const { return points.size() / 3; }
@@ -77,6 +77,6 @@ inline void check_cloud(Cloud const& cloud)
     }
 }
 
-}  // namespace detail
+} // namespace detail
 
-}  // namespace spate::io
+} // namespace spate::io

@@ -57,7 +57,7 @@ std::vector<std::string> headings(std::string const& name, Vec<Dim, double>)
     return all;
 }
 
-}  // namespace detail
+} // namespace detail
 
 /// History{directory, 0.001, Front{...}, Probe{...}}: an output of Simulation::run. A column is anything with a name that,
 /// called with the scene, returns a number or a vector. Rows grow in history.csv.tmp and are history.csv when the run ends.
@@ -66,7 +66,8 @@ class History {
 public:
     /// \param every  interval between two rows [s]; 0: a row each step
     History(std::filesystem::path const& directory, double every, Column... columns)
-        : file_(directory / "history.csv"), tmp_(file_.string() + ".tmp"), every_(every), columns_(std::move(columns)...)
+        : file_(directory / "history.csv"), tmp_(file_.string() + ".tmp"), every_(every),
+          columns_(std::move(columns)...)
     {
         require_non_negative("History.every", every, "s");
     }
@@ -74,7 +75,7 @@ public:
     History& operator=(History const&) = delete;
     ~History()
     {
-        if (out_.is_open()) out_.close();  // cut short: the rows stay in the temporary file
+        if (out_.is_open()) out_.close(); // cut short: the rows stay in the temporary file
     }
 
     void begin(auto& scene)
@@ -104,7 +105,8 @@ public:
 
 private:
     template <class Scene>
-    static constexpr bool has_density = std::remove_cvref_t<decltype(std::declval<Scene&>().particles())>::template has<Density>;
+    static constexpr bool has_density =
+        std::remove_cvref_t<decltype(std::declval<Scene&>().particles())>::template has<Density>;
 
     template <class Scene>
     std::string heading(Scene& scene) const
@@ -113,9 +115,11 @@ private:
         std::set<std::string> taken;
         auto add = [&](std::string const& name) {
             if (name.empty() || name.find_first_of(",\"\n\r") != std::string::npos)
-                throw BadInput("the name of a column of history.csv", "\"" + name + "\"", "a word without commas and quotes");
+                throw BadInput("the name of a column of history.csv", "\"" + name + "\"",
+                               "a word without commas and quotes");
             if (!taken.insert(name).second)
-                throw BadInput("the name of a column of history.csv", "\"" + name + "\" twice", "a name of its own for each");
+                throw BadInput("the name of a column of history.csv", "\"" + name + "\" twice",
+                               "a name of its own for each");
             row.add(name);
         };
         for (auto* name : {"step", "t", "dt", "dt_criterion", "kinetic", "potential"}) add(name);
@@ -124,7 +128,8 @@ private:
         for (auto const& name : detail::headings("momentum", scene.momentum())) add(name);
         add("max_speed");
         if constexpr (has_density<Scene>) add("density_min"), add("density_max");
-        std::apply([&](auto const&... c) { (each_of(detail::headings(c.name, decltype(c(scene)){}), add), ...); }, columns_);
+        std::apply([&](auto const&... c) { (each_of(detail::headings(c.name, decltype(c(scene)){}), add), ...); },
+                   columns_);
         return row.text();
     }
     static void each_of(std::vector<std::string> const& names, auto const& f)
@@ -161,8 +166,8 @@ private:
     detail::Every every_;
     std::tuple<Column...> columns_;
     std::ofstream out_;
-    double start_ = 0;           ///< total energy of the first row [J]; no wall or force of the library does work unseen
-    std::int64_t written_ = -1;  ///< step of the last row
+    double start_ = 0;          ///< total energy of the first row [J]; no wall or force of the library does work unseen
+    std::int64_t written_ = -1; ///< step of the last row
 };
 
-}  // namespace spate::io
+} // namespace spate::io

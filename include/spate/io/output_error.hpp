@@ -40,4 +40,4 @@ struct OutputError : std::runtime_error {
     }
 };
 
-}  // namespace spate
+} // namespace spate

@@ -29,10 +29,10 @@
 namespace spate::io {
 
 struct Ball {
-    float x[3];            ///< in 2D: to the right, up, ignored  [m]
-    float radius;          ///< [m]
-    float value;           ///< what the colour shows; red if not a number
-    bool ghosted = false;  ///< a wall marker: light grey, without a value
+    float x[3];           ///< in 2D: to the right, up, ignored  [m]
+    float radius;         ///< [m]
+    float value;          ///< what the colour shows; red if not a number
+    bool ghosted = false; ///< a wall marker: light grey, without a value
 };
 
 /// How wall markers are drawn in 3D; in 2D they are solid unless left out.
@@ -41,19 +41,19 @@ enum class Ghosts { translucent, solid, left_out };
 struct Picture {
     static constexpr double automatic = std::numeric_limits<double>::quiet_NaN();
 
-    std::string title = {};                            ///< on top; the place for the time
-    std::string value_name = {};                       ///< empty: no colour bar
-    std::string unit = {};                             ///< of the value
-    int dim = 3;                                       ///< 2 or 3
-    double value_min = automatic;                      ///< colour at the low end
-    double value_max = automatic;                      ///< colour at the high end
-    std::array<double, 3> seen_from{0.5, -0.8, 0.45};  ///< 3D: direction from the scene to the viewer; z is up
-    int width = 1400;                                  ///< [pixels]
-    int height = 900;                                  ///< [pixels]
+    std::string title = {};                           ///< on top; the place for the time
+    std::string value_name = {};                      ///< empty: no colour bar
+    std::string unit = {};                            ///< of the value
+    int dim = 3;                                      ///< 2 or 3
+    double value_min = automatic;                     ///< colour at the low end
+    double value_max = automatic;                     ///< colour at the high end
+    std::array<double, 3> seen_from{0.5, -0.8, 0.45}; ///< 3D: direction from the scene to the viewer; z is up
+    int width = 1400;                                 ///< [pixels]
+    int height = 900;                                 ///< [pixels]
     Ghosts ghosts = Ghosts::translucent;
-    std::array<std::string, 3> axes{"x", "y", "z"};                ///< names along x[0], x[1], x[2]
-    std::array<double, 3> lower{automatic, automatic, automatic};  ///< balls whose centre is outside are left out  [m]
-    std::array<double, 3> upper{automatic, automatic, automatic};  ///< [m]
+    std::array<std::string, 3> axes{"x", "y", "z"};               ///< names along x[0], x[1], x[2]
+    std::array<double, 3> lower{automatic, automatic, automatic}; ///< balls whose centre is outside are left out  [m]
+    std::array<double, 3> upper{automatic, automatic, automatic}; ///< [m]
 };
 
 namespace detail {
@@ -119,7 +119,7 @@ inline std::array<double, 2> value_range(Picture const& picture, std::vector<Bal
     if (std::isfinite(picture.value_min)) low = picture.value_min;
     if (std::isfinite(picture.value_max)) high = picture.value_max;
     const double largest = std::max(std::abs(low), std::abs(high));
-    if (high - low > 1e-5 * largest) return {low, high};  // float resolves no finer
+    if (high - low > 1e-5 * largest) return {low, high}; // float resolves no finer
     if (largest == 0) return {0, 1};
     return {low - 5e-4 * largest, low + 5e-4 * largest};
 }
@@ -160,7 +160,7 @@ inline void draw_balls(Canvas& canvas, Picture const& picture, std::vector<Ball>
     Light light{flat, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
     for (Ball const& ball : balls) {
         const Eigen::Vector3d at = view(place(ball, flat));
-        const double smallest = 0.6;  // a ball far smaller than a pixel is still seen  [pixels]
+        const double smallest = 0.6; // a ball far smaller than a pixel is still seen  [pixels]
         const double fraction = (ball.value - bar.low) / (bar.high - bar.low);
         const Rgb colour = ball.ghosted ? wall : std::isnan(fraction) ? not_a_number : viridis(fraction);
         const bool through = ball.ghosted && !flat && picture.ghosts == Ghosts::translucent;
@@ -175,7 +175,7 @@ inline Canvas draw(Picture const& picture, std::vector<Ball> const& all)
 {
     const std::vector<Ball> balls = visible(picture, all);
     const bool flat = picture.dim == 2;
-    const int font = std::max(1, (std::min(picture.width, picture.height) + 400) / 500);  // 2 at 600 to 1099 pixels
+    const int font = std::max(1, (std::min(picture.width, picture.height) + 400) / 500); // 2 at 600 to 1099 pixels
     Canvas canvas(picture.width, picture.height, {255, 255, 255});
     const Box box = bounds(picture, balls);
     const auto [low, high] = value_range(picture, balls);
@@ -194,7 +194,7 @@ inline Canvas draw(Picture const& picture, std::vector<Ball> const& all)
     return canvas;
 }
 
-}  // namespace detail
+} // namespace detail
 
 /// Throws OutputError, and the file is then what it was before. The same balls give the same bytes.
 inline void write_png(std::filesystem::path const& file, Picture const& picture, std::vector<Ball> const& balls)
@@ -203,4 +203,4 @@ inline void write_png(std::filesystem::path const& file, Picture const& picture,
     detail::replace_file(file, detail::png_bytes(file, detail::draw(picture, balls)));
 }
 
-}  // namespace spate::io
+} // namespace spate::io

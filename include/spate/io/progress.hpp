@@ -24,7 +24,10 @@ public:
     Progress(double until, std::int64_t steps, Shown shown, std::ostream& out = std::cerr)
         : until_(until), steps_(steps), shown_(shown), out_(&out)
     {}
-    static Shown usual(bool quiet) { return quiet ? Shown::nothing : ::isatty(STDERR_FILENO) != 0 ? Shown::live : Shown::tenths; }
+    static Shown usual(bool quiet)
+    {
+        return quiet ? Shown::nothing : ::isatty(STDERR_FILENO) != 0 ? Shown::live : Shown::tenths;
+    }
 
     void begin(auto const& scene)
     {
@@ -59,8 +62,9 @@ private:
         shown_at_ = now;
         const double spent = std::chrono::duration<double>(now - start_).count();
         std::string text(120, '\0');
-        const int n = std::snprintf(text.data(), text.size(), "%3.0f %%  t = %.4g s  step %lld  %s left", 100 * done, time,
-                                    static_cast<long long>(step), duration(done > 0 ? spent * (1 - done) / done : 0).c_str());
+        const int n =
+            std::snprintf(text.data(), text.size(), "%3.0f %%  t = %.4g s  step %lld  %s left", 100 * done, time,
+                          static_cast<long long>(step), duration(done > 0 ? spent * (1 - done) / done : 0).c_str());
         text.resize(std::size_t(std::clamp(n, 0, int(text.size()) - 1)));
         if (shown_ == Shown::live) *out_ << '\r' << text << "   " << std::flush;
         else *out_ << text << '\n' << std::flush;
@@ -85,4 +89,4 @@ private:
     int tenths_ = 0;
 };
 
-}  // namespace spate::io
+} // namespace spate::io

@@ -26,8 +26,9 @@ namespace detail {
 /// What a file shows of a particle's fields: not where lists were built, not rates, and not what is one number for all,
 /// but its radius and its velocity.
 template <class F, class Particles>
-constexpr bool shown = !std::same_as<F, Position> && !std::same_as<F, BuildPosition> && std::is_void_v<typename F::rate_of> &&
-                       (!Set<Particles::uniform>::template contains<F> || std::same_as<F, Radius> || std::same_as<F, Velocity>);
+constexpr bool shown =
+    !std::same_as<F, Position> && !std::same_as<F, BuildPosition> && std::is_void_v<typename F::rate_of> &&
+    (!Set<Particles::uniform>::template contains<F> || std::same_as<F, Radius> || std::same_as<F, Velocity>);
 
 template <class Particles, class... F>
 constexpr auto shown_of(Fields<F...>)
@@ -49,7 +50,8 @@ template <class Particles, class F>
 void append(Column& column, Particles const& p, std::size_t i, F field)
 {
     if constexpr (!Particles::template has<F>)
-        column.values.insert(column.values.end(), std::size_t(column.components), std::numeric_limits<float>::quiet_NaN());
+        column.values.insert(column.values.end(), std::size_t(column.components),
+                             std::numeric_limits<float>::quiet_NaN());
     else if constexpr (F::rank == 0) column.values.push_back(float(p.at(field, i)));
     else {
         const auto v = p.at(field, i);
@@ -57,7 +59,7 @@ void append(Column& column, Particles const& p, std::size_t i, F field)
     }
 }
 
-}  // namespace detail
+} // namespace detail
 
 /// All particles of a scene, with the fields that its mobile particles show.
 template <class Scene>
@@ -113,10 +115,10 @@ private:
     }
 
     SnapshotSeries series_;
-    double interval_;  ///< [s]
+    double interval_; ///< [s]
     detail::Every every_;
     std::filesystem::path last_;
-    std::int64_t written_ = -1;  ///< step of the last one
+    std::int64_t written_ = -1; ///< step of the last one
 };
 
-}  // namespace spate::io
+} // namespace spate::io

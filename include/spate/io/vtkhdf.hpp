@@ -95,7 +95,7 @@ inline std::string shortest(double value)
     return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
 
-}  // namespace detail
+} // namespace detail
 
 /// Name the file *.hdf: ParaView 5.11 opens no other. Throws OutputError, and the file is then what it was before.
 inline void write_vtkhdf(std::filesystem::path const& file, Cloud const& cloud)
@@ -159,4 +159,4 @@ private:
     std::vector<double> times_;
 };
 
-}  // namespace spate::io
+} // namespace spate::io

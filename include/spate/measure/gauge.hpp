@@ -16,10 +16,10 @@ namespace spate {
 template <int Dim>
 struct Gauge {
     std::string name;
-    Vec<Dim, double> foot;  ///< [m]
-    double spacing;         ///< of the particles [m]
+    Vec<Dim, double> foot; ///< [m]
+    double spacing;        ///< of the particles [m]
 
-    double operator()(auto const& scene) const  // [m]
+    double operator()(auto const& scene) const // [m]
     {
         auto const& p = scene.particles();
         const double h = scene.physics().interaction.length();
@@ -38,4 +38,4 @@ Gauge(std::string, Vec<Dim, double>, double) -> Gauge<Dim>;
 template <int Dim>
 Gauge(char const*, Vec<Dim, double>, double) -> Gauge<Dim>;
 
-}  // namespace spate
+} // namespace spate

@@ -11,7 +11,7 @@ namespace spate {
 
 /// The number of mobile particles beyond a wall face by more than half a spacing, where the first layer of markers is.
 struct Leaks {
-    double spacing;  ///< of the particles [m]
+    double spacing; ///< of the particles [m]
     std::string name = "leaks";
 
     double operator()(auto const& scene) const
@@ -25,4 +25,4 @@ struct Leaks {
     }
 };
 
-}  // namespace spate
+} // namespace spate

@@ -18,4 +18,4 @@ Vec<Dim, double> nearest_image(Vec<Dim, double> x, auto const& grid)
     return x;
 }
 
-}  // namespace spate
+} // namespace spate

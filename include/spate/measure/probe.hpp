@@ -18,7 +18,7 @@ template <Field F, int Dim>
 struct Probe {
     std::string name;
     F field;
-    Vec<Dim, double> at;  ///< [m]
+    Vec<Dim, double> at; ///< [m]
 
     Value<F, Dim, double> operator()(auto const& scene) const
     {
@@ -53,4 +53,4 @@ Probe(std::string, F, Vec<Dim, double>) -> Probe<F, Dim>;
 template <Field F, int Dim>
 Probe(char const*, F, Vec<Dim, double>) -> Probe<F, Dim>;
 
-}  // namespace spate
+} // namespace spate

@@ -16,7 +16,7 @@ namespace spate {
 struct WallForce {
     std::string name = "wall_force";
 
-    auto operator()(auto& scene) const  // [N]
+    auto operator()(auto& scene) const // [N]
     {
         using Engine = std::remove_cvref_t<decltype(scene.system())>;
         static_assert(Engine::species_count == 2, "spate: WallForce needs a boundary of markers, such as Bce");
@@ -32,4 +32,4 @@ struct WallForce {
     }
 };
 
-}  // namespace spate
+} // namespace spate

@@ -19,7 +19,8 @@ template <int Dim, Real T, class S>
 struct Packed {
     using L = Layout<Dim, S>;
     static constexpr S fields{};
-    static constexpr T far = T(sizeof(T) == 4 ? 1e8 : 1e12); ///< where the sentinel is [m]: its cube times a density is finite
+    static constexpr T far =
+        T(sizeof(T) == 4 ? 1e8 : 1e12); ///< where the sentinel is [m]: its cube times a density is finite
     Array<T> data;
 };
 
@@ -133,7 +134,8 @@ void sweep_cell(I const& interaction_, Tuple const& terms_, P& particles, Binnin
     const int targets = at.end(cell) - first;
     for (std::size_t block = 0; block < blocks; ++block) {
         std::int32_t const* target = lists.target.data() + block * std::size_t(width<V>);
-        const auto ri = particles.template record_of<V>(Target{}, first, target);
+        const auto ri = lists.in_order ? particles.template record_at<V>(Target{}, first + target[0])
+                                       : particles.template record_of<V>(Target{}, first, target);
         Record<P::dim, V, Sums> sums;
         clear(sums);
         (detail::over<V>(interaction, all, ri, ui, sums, source, cell, block), ...);
@@ -142,7 +144,8 @@ void sweep_cell(I const& interaction_, Tuple const& terms_, P& particles, Binnin
         const int lanes = std::min(targets - int(block) * width<V>, width<V>);
         for_each(
             Sums{}, [&](auto f) __attribute__((always_inline)) {
-                particles.template store_of<V>(f, first, target, sums[f], lanes);
+                if (lists.in_order) particles.template store_at<V>(f, std::size_t(first + target[0]), sums[f], lanes);
+                else particles.template store_of<V>(f, first, target, sums[f], lanes);
             });
     }
 }

@@ -217,11 +217,16 @@ public:
     static constexpr auto free = drifting - driven;
 
     // ---- advancing
-    /// y += dt * rate for each of the fields that evolves in a species.
+    /// y += dt * rate for each of the fields that evolves in a species; of two sets the second sees the first advanced.
     template <class... F>
     void advance(Fields<F...> set, double dt)
     {
-        advance_from<false>(set, dt);
+        advance_from<false>(dt, set);
+    }
+    template <class... F, class... G>
+    void advance(Fields<F...> first, Fields<G...> then, double dt)
+    {
+        advance_from<false>(dt, first, then);
     }
     /// Remembers all evolving fields as the start of the step.
     void save()
@@ -235,13 +240,15 @@ public:
         });
     }
     /// y = y at the start of the step + dt * rate.
-    template <class... F>
-    void advance_saved(Fields<F...> set, double dt)
+    template <class... F, class... G>
+    void advance_saved(Fields<F...> first, Fields<G...> then, double dt)
     {
-        advance_from<true>(set, dt);
+        advance_from<true>(dt, first, then);
     }
 
     // ---- measures
+    /// \tparam with_acceleration  whether anyone asks for max |a|
+    template <bool with_acceleration = true>
     [[nodiscard]] Extremes extremes() const
     {
         Extremes e;
@@ -249,7 +256,7 @@ public:
         auto const& p = mobile();
         const std::size_t n = p.size();
         backend_.for_each((n + task - 1) / task, [&](std::size_t k) {
-            const Extremes mine = extremes_of(k * task, std::min(n, (k + 1) * task));
+            const Extremes mine = extremes_of<with_acceleration>(k * task, std::min(n, (k + 1) * task));
             const std::lock_guard hold(lock);
             e |= mine;
         });
@@ -497,7 +504,8 @@ private:
         });
         constexpr auto at = std::size_t(L::template offset<Position>);
         for (std::size_t f = 0; f < stride && n > 0; ++f) data[n * stride + f] = data[f];
-        for (std::size_t c = 0; c < std::size_t(dim); ++c) data[n * stride + at + c] = x.packed.far; // beyond every range
+        for (std::size_t c = 0; c < std::size_t(dim); ++c)
+            data[n * stride + at + c] = x.packed.far; // beyond every range
         if (images.of.empty()) return;
         backend_.for_each((images.of.size() + task - 1) / task, [&](std::size_t k) {
             for (std::size_t g = k * task, end = std::min(images.of.size(), (k + 1) * task); g < end; ++g) {
@@ -542,21 +550,22 @@ private:
         return Source<terms, ParticlesOf<q>, std::remove_cvref_t<decltype(x.packed)>>{x.particles, x.packed,
                                                                                       lists<s, q>(), s == q};
     }
-    template <bool from_start, class... F>
-    void advance_from(Fields<F...> set, double dt)
+    /// The sets one after the other, a stretch of particles at a time: it is in the cache for the second set.
+    template <bool from_start, class... Sets>
+    void advance_from(double dt, Sets...)
     {
         each_species([&](auto s) {
-            constexpr auto mine = M::template evolving<s()>() & Fields<F...>{};
-            if constexpr (Set<mine>::size > 0)
+            if constexpr (decltype((Fields<>{} | ... | (M::template evolving<s()>() & Sets{})))::size > 0)
                 stretches<s()>([&](std::size_t first, std::size_t last) {
-                    auto& x = species<s()>();
-                    for_each(mine, [&](auto f) {
-                        for (int c = 0; c < components<decltype(f), dim>; ++c)
-                            advance_column<from_start, s()>(x, f, std::size_t(c), first, last, T(dt));
-                    });
+                    auto one = [&](auto set) {
+                        for_each(M::template evolving<s()>() & set, [&](auto f) {
+                            for (int c = 0; c < components<decltype(f), dim>; ++c)
+                                advance_column<from_start, s()>(species<s()>(), f, std::size_t(c), first, last, T(dt));
+                        });
+                    };
+                    (one(Sets{}), ...);
                 });
         });
-        (void)set;
     }
     template <bool from_start, int s, Field F>
     static void advance_column(auto& x, F f, std::size_t c, std::size_t first, std::size_t last, T dt)
@@ -580,6 +589,7 @@ private:
                     if (!(double(value) < grid_.box().hi[c])) value = T(grid_.box().lo[c]); // rounded up in T
                 }
     }
+    template <bool with_acceleration>
     [[nodiscard]] Extremes extremes_of(std::size_t first, std::size_t last) const
     {
         auto const& p = mobile();
@@ -587,7 +597,10 @@ private:
         Vec<dim, V> least_x{}, most_x{}, least_v{}, most_v{};
         for (int c = 0; c < dim; ++c) least_x[c] = most_x[c] = least_v[c] = most_v[c] = V(0);
         V v2(0), a2(0), x2(0), least(std::numeric_limits<T>::max()), most(0), poison(0);
-        for (std::size_t i = first; i < last; i += std::size_t(width<V>)) {
+        constexpr auto W = std::size_t(width<V>);
+        const int lanes = int(std::min(last, W)); // padding has no say: what it holds depends on who is last
+        for (std::size_t k = first; k < last; k += W) {
+            const std::size_t i = std::min(k, last - std::size_t(lanes)); // the last pack overlaps the one before
             const auto x = p.template load_at<V>(position, i);
             const auto v = p.template load_at<V>(velocity, i);
             const auto moved = x - p.template load_at<V>(build_position, i);
@@ -598,7 +611,7 @@ private:
                 least_v[c] = min(v[c], least_v[c]), most_v[c] = max(v[c], most_v[c]);
             }
             poison += V(0) * (d2 + s2);
-            if constexpr (Q::template has<Acceleration>) {
+            if constexpr (with_acceleration && Q::template has<Acceleration>) {
                 const V n2 = p.template load_at<V>(acceleration, i).squaredNorm();
                 a2 = max(n2, a2), poison += V(0) * n2;
             }
@@ -608,20 +621,20 @@ private:
             }
         }
         Extremes e;
-        e.speed = std::sqrt(double(largest(v2)));
-        e.acceleration = std::sqrt(double(largest(a2)));
-        e.moved = std::sqrt(double(largest(x2)));
+        e.speed = std::sqrt(double(largest(v2, lanes)));
+        e.acceleration = std::sqrt(double(largest(a2, lanes)));
+        e.moved = std::sqrt(double(largest(x2, lanes)));
         for (int c = 0; c < dim; ++c) {
             const auto k = std::size_t(c);
-            e.least_move[k] = -double(largest(V(V(0) - least_x[c]))), e.most_move[k] = double(largest(most_x[c]));
-            e.least_velocity[k] = -double(largest(V(V(0) - least_v[c]))),
-            e.most_velocity[k] = double(largest(most_v[c]));
+            e.least_move[k] = -double(largest(V(V(0) - least_x[c]), lanes)), e.most_move[k] = double(largest(most_x[c], lanes));
+            e.least_velocity[k] = -double(largest(V(V(0) - least_v[c]), lanes)),
+            e.most_velocity[k] = double(largest(most_v[c], lanes));
         }
-        e.least_density = -double(largest(V(V(0) - least)));
-        e.most_density = double(largest(most));
+        e.least_density = -double(largest(V(V(0) - least), lanes));
+        e.most_density = double(largest(most, lanes));
         alignas(64) T lane[std::size_t(width<V>)];
         store(lane, poison);
-        for (int k = 0; k < width<V>; ++k) e.poison += double(lane[k]);
+        for (int k = 0; k < lanes; ++k) e.poison += double(lane[k]);
         return e;
     }
 
