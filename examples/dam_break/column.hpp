@@ -14,10 +14,10 @@
 template <int Dim>
 struct Column {
     spate::Box<Dim> tank, water;
-    double spacing;  ///< of the particles [m]
-    double alpha;    ///< of the artificial viscosity [-]
+    double spacing; ///< of the particles [m]
+    double alpha;   ///< of the artificial viscosity [-]
 
-    [[nodiscard]] double height() const { return water.hi[Dim - 1]; }  // [m]
+    [[nodiscard]] double height() const { return water.hi[Dim - 1]; } // [m]
     /// A point x along and z up, in the middle across.
     [[nodiscard]] spate::Vec<Dim, double> at(double x, double z) const
     {
@@ -53,11 +53,12 @@ double markers(Column<Dim> const& c)
 template <int Dim>
 Column<Dim> column(std::string const& name, double spacing)
 {
-    constexpr double H = 0.6;  // [m]
-    double unit = H / 4;       // every edge of both boxes is a multiple of it [m]
+    constexpr double H = 0.6; // [m]
+    double unit = H / 4;      // every edge of both boxes is a multiple of it [m]
     Column<Dim> c{box_of<Dim>(4 * H, H / 4, 2 * H), box_of<Dim>(H / 2, H / 4, H), Dim == 3 ? H / 32 : H / 80, 0.02};
     if (name != "default" && (name == "2d") != (Dim == 2))
-        throw spate::BadInput("case", name, Dim == 2 ? "default or 2d with --dim 2" : "default, big or small with --dim 3");
+        throw spate::BadInput("case", name,
+                              Dim == 2 ? "default or 2d with --dim 2" : "default, big or small with --dim 3");
     if (name == "big" || name == "small")
         c = {box_of<Dim>(1, 0.4, 0.5), box_of<Dim>(0.5, 0.4, 0.4), name == "big" ? 0.01 : 0.025, 0.1}, unit = 0.1;
     if (name == "2d") c = {box_of<Dim>(4, 0, 2), box_of<Dim>(2, 0, 1), 0.008, 0.1}, unit = 1;
@@ -68,8 +69,9 @@ Column<Dim> column(std::string const& name, double spacing)
                    spate::text(unit) + " m over a whole number, so that it divides the boxes; the nearest is " +
                        spate::text(unit / n) + " m");
     c.spacing = unit / n;
-    const double memory = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE));  // [B]
-    spate::require(500 * markers(c) <= memory, "spacing", spacing,  // bytes of a marker, lists included
-                   "one whose " + spate::text(markers(c)) + " particles fit in " + spate::text(memory / 1e9) + " GB of memory");
+    const double memory = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE)); // [B]
+    spate::require(500 * markers(c) <= memory, "spacing", spacing, // bytes of a marker, lists included
+                   "one whose " + spate::text(markers(c)) + " particles fit in " + spate::text(memory / 1e9) +
+                       " GB of memory");
     return c;
 }

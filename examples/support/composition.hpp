@@ -20,7 +20,8 @@
 #define SPATE_PRECISION Double
 #endif
 #ifndef SPATE_WALL
-#define SPATE_WALL Adami{.suction = false}
+#define SPATE_WALL                                                                                                     \
+    Adami { .suction = false }
 #endif
 #ifndef SPATE_BACKEND
 #define SPATE_BACKEND Threads
@@ -62,4 +63,4 @@ inline spate::Vec<dim, double> down(double g)
     return v;
 }
 
-}  // namespace scene
+} // namespace scene

@@ -54,7 +54,7 @@ public:
             std::cerr << e.what() << '\n';
             return 4;
         }
-        catch (std::invalid_argument const& e) {  // BadInput, and what the writers refuse
+        catch (std::invalid_argument const& e) { // BadInput, and what the writers refuse
             std::cerr << e.what() << '\n';
             return 2;
         }
@@ -72,7 +72,8 @@ public:
         spate::io::History history(directory, options_.history_every, measure...);
         Pictures pictures(directory, name_, options_.picture_every);
         spate::require_non_negative("every", options_.every, "s");
-        const spate::RunOptions how{.until = options_.until, .steps = options_.steps, .cfl = options_.cfl, .dt = options_.dt};
+        const spate::RunOptions how{
+            .until = options_.until, .steps = options_.steps, .cfl = options_.cfl, .dt = options_.dt};
         scene.check(how);
         require_writable(directory);
         spate::io::Snapshots snapshots(directory, name_, options_.every);
@@ -81,7 +82,8 @@ public:
         scene.interrupt_when([] { return interrupt() != 0; });
 
         Summary summary = about(scene);
-        summary.files = {history.file().filename(), name_ + ".hdf.series", name_ + "_*.hdf", pictures.file().filename()};
+        summary.files = {history.file().filename(), name_ + ".hdf.series", name_ + "_*.hdf",
+                         pictures.file().filename()};
         talk.opening(summary);
         summary.energy_start = scene.energy().total();
         const auto file = directory / "summary.json";
@@ -119,11 +121,12 @@ private:
             spate::io::detail::Temporary probe(directory / "summary.json");
         }
         catch (spate::OutputError const& e) {
-            throw spate::BadInput("output", directory.string(), std::string("a directory to write in (") + e.what() + ")");
+            throw spate::BadInput("output", directory.string(),
+                                  std::string("a directory to write in (") + e.what() + ")");
         }
     }
     template <class Scene>
-    static Summary about_species(Scene const& scene, Summary s)
+    [[gnu::cold]] static Summary about_species(Scene const& scene, Summary s)
     {
         using M = typename Scene::Engine::M;
         constexpr bool fluid = spate::has_equation_of_state<std::remove_cvref_t<decltype(scene.physics())>>;
@@ -137,7 +140,7 @@ private:
         return s;
     }
     template <class Scene>
-    Summary about(Scene const& sim) const
+    [[gnu::cold]] Summary about(Scene const& sim) const
     {
         using Engine = typename Scene::Engine;
         auto name = []<class T>(T const&) { return type_name(typeid(T).name()); };
@@ -160,14 +163,14 @@ private:
     void interrupted(Summary& s, auto const& scene)
     {
         s.stop = "Interrupted";
-        s.stop_message = std::string("spate: interrupted by ") + (interrupt() == SIGINT ? "SIGINT" : "SIGTERM") + " at step " +
-                         std::to_string(scene.steps()) + ", t = " + spate::text(scene.time()) +
+        s.stop_message = std::string("spate: interrupted by ") + (interrupt() == SIGINT ? "SIGINT" : "SIGTERM") +
+                         " at step " + std::to_string(scene.steps()) + ", t = " + spate::text(scene.time()) +
                          " s; the last state has been written";
         s.stop_facts.step = scene.steps(), s.stop_facts.time = scene.time();
         code_ = 128 + interrupt();
     }
     template <class Scene>
-    static void finish(Summary& s, Scene const& scene)
+    [[gnu::cold]] static void finish(Summary& s, Scene const& scene)
     {
         auto const& r = scene.report();
         s.steps = scene.steps(), s.time = scene.time();
@@ -182,7 +185,7 @@ private:
     /// What is printed on standard output.
     struct Talk {
         bool quiet;
-        std::size_t told = 0;  ///< warnings
+        std::size_t told = 0; ///< warnings
 
         void opening(Summary const& s) const
         {
@@ -199,7 +202,8 @@ private:
         void step(auto const& scene)
         {
             if (scene.report().steps == 1 && !quiet) {
-                std::printf("dt = %.4g s at the start, by the %s criterion\n", scene.dt(), std::string(scene.criterion()).c_str());
+                std::printf("dt = %.4g s at the start, by the %s criterion\n", scene.dt(),
+                            std::string(scene.criterion()).c_str());
                 std::fflush(stdout);
             }
             warn(scene.report().warnings);
@@ -210,16 +214,20 @@ private:
         {
             for (; told < all.size(); ++told) std::cerr << "warning: " << all[told] << '\n';
         }
-        void closing(Summary const& s, std::filesystem::path const& directory, std::filesystem::path const& picture) const
+        void closing(Summary const& s, std::filesystem::path const& directory,
+                     std::filesystem::path const& picture) const
         {
             if (quiet) return;
-            std::printf("%s: t = %.4g s after %lld steps in %.1f s", s.stop.c_str(), s.time, static_cast<long long>(s.steps), s.wall);
-            if (s.steps > 0) std::printf(" (%.1f ns a particle-step, %.2f ns a pair)", s.ns_per_particle_step(), s.ns_per_pair());
+            std::printf("%s: t = %.4g s after %lld steps in %.1f s", s.stop.c_str(), s.time,
+                        static_cast<long long>(s.steps), s.wall);
+            if (s.steps > 0)
+                std::printf(" (%.1f ns a particle-step, %.2f ns a pair)", s.ns_per_particle_step(), s.ns_per_pair());
             std::printf("\n");
             if (s.mach > 0)
-                std::printf("largest Mach number %.3f, largest density change %.2f %%\n", s.mach, 100 * s.density_change);
-            std::printf("total energy %.6g J at the start, %.6g J at the end: %+.2f %% of the reference %.6g J\n", s.energy_start,
-                        s.energy_end, 100 * s.energy_drift(), s.energy_reference);
+                std::printf("largest Mach number %.3f, largest density change %.2f %%\n", s.mach,
+                            100 * s.density_change);
+            std::printf("total energy %.6g J at the start, %.6g J at the end: %+.2f %% of the reference %.6g J\n",
+                        s.energy_start, s.energy_end, 100 * s.energy_drift(), s.energy_reference);
             std::printf("picture: %s\nfiles in %s: summary.json", picture.c_str(), directory.c_str());
             for (auto const& file : s.files) std::printf(" %s", file.c_str());
             std::printf("\n");
@@ -232,4 +240,4 @@ private:
     int code_ = 0;
 };
 
-}  // namespace example
+} // namespace example

@@ -13,7 +13,7 @@ extern "C" void keep(int signal)
     signal_that_came = signal;
     std::signal(signal, SIG_DFL);
 }
-}  // namespace
+} // namespace
 
 void catch_interrupts()
 {
@@ -22,4 +22,4 @@ void catch_interrupts()
 }
 int interrupt() { return signal_that_came; }
 
-}  // namespace example
+} // namespace example

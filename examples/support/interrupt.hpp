@@ -10,4 +10,4 @@ void catch_interrupts();
 /// The signal that came, or 0.
 int interrupt();
 
-}  // namespace example
+} // namespace example

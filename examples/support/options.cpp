@@ -13,8 +13,11 @@ struct CommandLine::Parser {
 
 namespace {
 /// "--until FLOAT [s]  (0.9)": CLI11 shows the type, the unit and the default.
-CLI::Option* with_unit(CLI::Option* option, std::string const& unit) { return option->type_name(unit)->capture_default_str(); }
-}  // namespace
+CLI::Option* with_unit(CLI::Option* option, std::string const& unit)
+{
+    return option->type_name(unit)->capture_default_str();
+}
+} // namespace
 
 CommandLine::CommandLine(std::string const& name, std::string const& about, Options& o)
     : parser_(std::make_unique<Parser>()), options_(o)
@@ -32,8 +35,10 @@ CommandLine::CommandLine(std::string const& name, std::string const& about, Opti
     with_unit(app.add_option("--cell", o.cell, "ranges along the edge of a cell, 1 to 32; 0: by dimension"), "M");
     app.add_option("--output", o.output, "directory of the results")->type_name("DIR")->default_str(o.output);
     with_unit(app.add_option("--every", o.every, "between two snapshots; 0: the last state only"), "[s]");
-    with_unit(app.add_option("--history-every", o.history_every, "between two rows of history.csv; 0: each step"), "[s]");
-    with_unit(app.add_option("--picture-every", o.picture_every, "between two pictures; 0: the last state only"), "[s]");
+    with_unit(app.add_option("--history-every", o.history_every, "between two rows of history.csv; 0: each step"),
+              "[s]");
+    with_unit(app.add_option("--picture-every", o.picture_every, "between two pictures; 0: the last state only"),
+              "[s]");
     app.add_flag("--quiet", o.quiet, "print nothing but errors");
 }
 CommandLine::~CommandLine() = default;
@@ -43,10 +48,13 @@ void CommandLine::choice(std::string const& option, std::string& value, std::vec
 {
     std::string all;
     for (auto const& word : words) all += (all.empty() ? "" : "|") + word;
-    parser_->app.add_option(option, value, help)->type_name(all)->capture_default_str()->check([words, all](std::string const& s) {
-        const bool known = std::find(words.begin(), words.end(), s) != words.end();
-        return known ? std::string() : "'" + s + "' is not one of " + all;
-    });
+    parser_->app.add_option(option, value, help)
+        ->type_name(all)
+        ->capture_default_str()
+        ->check([words, all](std::string const& s) {
+            const bool known = std::find(words.begin(), words.end(), s) != words.end();
+            return known ? std::string() : "'" + s + "' is not one of " + all;
+        });
 }
 void CommandLine::number(std::string const& option, double& value, std::string const& help, std::string const& unit)
 {
@@ -69,4 +77,4 @@ void CommandLine::parse(int argc, char** argv)
     }
 }
 
-}  // namespace example
+} // namespace example

@@ -14,18 +14,18 @@ namespace example {
 
 /// What every example takes; a scene gives its own defaults.
 struct Options {
-    double until = 1;                                               ///< end time [s]
-    std::int64_t steps = std::numeric_limits<std::int64_t>::max();  ///< at most
-    double spacing = 0;                                             ///< of the particles [m]; 0: the scene's
-    double cfl = 0.25;                                              ///< factor of the time-step criteria [-]
-    double dt = 0;                                                  ///< [s]; 0: by the criteria
-    double every = 0;                                               ///< between snapshots [s]; 0: the last state only
-    double history_every = 0;                                       ///< between rows of history.csv [s]; 0: each step
-    double picture_every = 0;                                       ///< between pictures [s]; 0: the last state only
-    int threads = 0;                                                ///< 0: as many as there are
-    int cell = 0;                                                   ///< ranges along a cell's edge; 0: by dimension
-    std::uint64_t seed = 1;                                         ///< of random numbers
-    std::string output = {};                                        ///< directory; empty: out/NAME
+    double until = 1;                                              ///< end time [s]
+    std::int64_t steps = std::numeric_limits<std::int64_t>::max(); ///< at most
+    double spacing = 0;                                            ///< of the particles [m]; 0: the scene's
+    double cfl = 0.25;                                             ///< factor of the time-step criteria [-]
+    double dt = 0;                                                 ///< [s]; 0: by the criteria
+    double every = 0;                                              ///< between snapshots [s]; 0: the last state only
+    double history_every = 0;                                      ///< between rows of history.csv [s]; 0: each step
+    double picture_every = 0;                                      ///< between pictures [s]; 0: the last state only
+    int threads = 0;                                               ///< 0: as many as there are
+    int cell = 0;                                                  ///< ranges along a cell's edge; 0: by dimension
+    std::uint64_t seed = 1;                                        ///< of random numbers
+    std::string output = {};                                       ///< directory; empty: out/NAME
     bool quiet = false;
 };
 
@@ -41,7 +41,8 @@ public:
     CommandLine& operator=(CommandLine const&) = delete;
     ~CommandLine();
 
-    void choice(std::string const& option, std::string& value, std::vector<std::string> const& words, std::string const& help);
+    void choice(std::string const& option, std::string& value, std::vector<std::string> const& words,
+                std::string const& help);
     void number(std::string const& option, double& value, std::string const& help, std::string const& unit);
     /// Only where a scene draws random numbers.
     void seed();
@@ -54,4 +55,4 @@ private:
     Options& options_;
 };
 
-}  // namespace example
+} // namespace example

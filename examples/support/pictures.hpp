@@ -17,6 +17,10 @@
 
 namespace example {
 
+/// io::write_png, compiled once for all compositions.
+void write_picture(std::filesystem::path const& file, spate::io::Picture const& picture,
+                   std::vector<spate::io::Ball> const& balls);
+
 /// An output of Simulation::run: NAME.png of the last state and, if asked for, NAME_000001.png, ... on the way.
 class Pictures {
 public:
@@ -53,7 +57,7 @@ private:
         else return scene.physics().interaction.range() / 4;
     }
     template <class Scene>
-    static std::vector<spate::io::Ball> balls_of(Scene const& scene)
+    [[gnu::cold]] static std::vector<spate::io::Ball> balls_of(Scene const& scene)
     {
         std::vector<spate::io::Ball> balls;
         scene.system().each_species([&](auto s) {
@@ -69,7 +73,7 @@ private:
         return balls;
     }
     template <class Scene>
-    void draw(Scene const& scene, std::string const& file)
+    [[gnu::cold]] void draw(Scene const& scene, std::string const& file)
     {
         spate::io::Picture picture;
         std::array<char, 80> title{};
@@ -81,15 +85,16 @@ private:
         if (Scene::dim == 2) picture.axes = {"x", "z", ""};
         picture.value_min = 0;
         if constexpr (spate::has_equation_of_state<std::remove_cvref_t<decltype(scene.physics())>>)
-            picture.value_max = spate::equation_of_state(scene.physics()).c0 / 10;  // the fastest flow that c0 was chosen for
-        spate::io::write_png(directory_ / file, picture, balls_of(scene));
+            picture.value_max =
+                spate::equation_of_state(scene.physics()).c0 / 10; // the fastest flow that c0 was chosen for
+        write_picture(directory_ / file, picture, balls_of(scene));
     }
 
     std::filesystem::path directory_;
     std::string name_;
-    double interval_;  ///< [s]
+    double interval_; ///< [s]
     spate::io::detail::Every every_;
     int count_ = 0;
 };
 
-}  // namespace example
+} // namespace example

@@ -46,7 +46,8 @@ Json versions()
             {"hdf5", dotted(major, minor, release)},
             {"libpng", png_get_libpng_ver(nullptr)},
             {"cli11", CLI11_VERSION},
-            {"nlohmann_json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)}};
+            {"nlohmann_json",
+             dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)}};
 }
 
 std::string compiler()
@@ -90,7 +91,7 @@ Json detail_of(Summary const& s)
     return d;
 }
 
-}  // namespace
+} // namespace
 
 std::size_t Summary::total() const
 {
@@ -146,8 +147,10 @@ void Summary::write(std::filesystem::path const& file) const
 std::string type_name(char const* mangled)
 {
     int status = 0;
-    const std::unique_ptr<char, void (*)(void*)> name(abi::__cxa_demangle(mangled, nullptr, nullptr, &status), std::free);
-    return std::regex_replace(std::string(status == 0 ? name.get() : mangled), std::regex("(\\w+|\\(anonymous namespace\\))::"), "");
+    const std::unique_ptr<char, void (*)(void*)> name(abi::__cxa_demangle(mangled, nullptr, nullptr, &status),
+                                                      std::free);
+    return std::regex_replace(std::string(status == 0 ? name.get() : mangled),
+                              std::regex("(\\w+|\\(anonymous namespace\\))::"), "");
 }
 
-}  // namespace example
+} // namespace example

@@ -17,21 +17,21 @@ using Words = std::vector<std::string>;
 
 struct Summary {
     std::string scene;
-    std::vector<std::pair<std::string, std::size_t>> particles;  ///< by species
+    std::vector<std::pair<std::string, std::size_t>> particles; ///< by species
     std::int64_t steps = 0, force_evaluations = 0;
-    std::int64_t pairs = 0;             ///< directed, within range, summed over evaluations
-    double time = 0;                    ///< reached [s]
-    double wall = 0, cpu = 0;           ///< of the step loop, output excluded [s]
-    std::size_t bytes = 0;              ///< of all that is kept for the particles
+    std::int64_t pairs = 0;   ///< directed, within range, summed over evaluations
+    double time = 0;          ///< reached [s]
+    double wall = 0, cpu = 0; ///< of the step loop, output excluded [s]
+    std::size_t bytes = 0;    ///< of all that is kept for the particles
     double mach = 0, density_change = 0;
-    double energy_start = 0, energy_end = 0, energy_reference = 0;  ///< [J]
+    double energy_start = 0, energy_end = 0, energy_reference = 0; ///< [J]
     std::string stop = "ok";
     std::string stop_message = {};
     spate::StopFacts stop_facts = {};
     std::uint64_t state_hash = 0;
     std::vector<std::pair<std::string, std::string>> composition;
     Words terms;
-    std::vector<std::pair<std::string, Words>> fields;  ///< by species
+    std::vector<std::pair<std::string, Words>> fields; ///< by species
     Words warnings;
     Words files;
     int threads = 1, ranks = 1;
@@ -50,4 +50,4 @@ struct Summary {
 /// "spate::CubicSpline<3>" as a reader would write it: without namespaces.
 std::string type_name(char const* mangled);
 
-}  // namespace example
+} // namespace example

@@ -6,11 +6,13 @@
 #include "spate/backend/serial.hpp"
 #include "spate/integrator/integrator.hpp"
 #include "spate/measure/watch.hpp"
+#include "spate/physics/sph/stability.hpp"
 #include "spate/physics/system.hpp"
 #include "spate/physics/time_step.hpp"
 
 #include <chrono>
 #include <functional>
+#include <numbers>
 
 namespace spate {
 
@@ -39,11 +41,20 @@ struct RunReport {
 inline constexpr struct Hydrostatic {
 } hydrostatic{};
 
+/// How an interaction wants its lists kept, where it says so.
+template <class I>
+constexpr Neighbours neighbours_for()
+{
+    if constexpr (requires { I::neighbours; }) return I::neighbours;
+    else return {};
+}
+
 template <class P, class I, class B, class Backend = Serial, class Precision = Double, class W = Watch>
 class Simulation {
     static_assert(Integrator<I>, "spate: the second argument of a Simulation is an integrator, such as RungeKutta2{}");
-    static_assert(std::same_as<std::remove_cvref_t<decltype(std::declval<B const&>().template edges<P::dim>())>, Edges<P::dim>>,
-                  "spate: the boundary has another number of dimensions than the kernel or the grains");
+    static_assert(
+        std::same_as<std::remove_cvref_t<decltype(std::declval<B const&>().template edges<P::dim>())>, Edges<P::dim>>,
+        "spate: the boundary has another number of dimensions than the kernel or the grains");
 
 public:
     static constexpr int dim = P::dim;
@@ -51,7 +62,7 @@ public:
     using Point = Vec<dim, double>;
 
     Simulation(P physics, I integrator, B boundary, Backend backend = {}, Precision = {}, W watch = {},
-               Neighbours neighbours = {})
+               Neighbours neighbours = neighbours_for<typename Engine::M::Interaction>())
         : integrator_(integrator), watch_(watch),
           system_(checked(physics, boundary, backend, neighbours), boundary, backend, neighbours, I::saves),
           g_(gravity_of(physics))
@@ -370,8 +381,42 @@ private:
             if (t.dt < 1e-3 * first_dt_) stop_dt(t.dt);
         }
         free_dt_ = t.dt;
+        if (step_ == 0) advise(t.dt);
         if (time_ + t.dt * (1 + 1e-9) >= o.until) t.bound(o.until - time_, "end");
         dt_ = t.dt, criterion_ = t.criterion;
+    }
+    /// Warns where theory predicts growth at this step.
+    void advise(double dt)
+    {
+        auto warn = [&](std::string const& w) { report_.warnings.push_back(w); };
+        if constexpr (has_equation_of_state<P>) {
+            auto const& p = system_.mobile();
+            if (p.empty()) return;
+            const double spacing = std::pow(p.at(mass, 0) / equation_of_state(physics()).rho0, 1.0 / dim);
+            const WorstWave w = worst_wave(physics(), spacing, dt, &I::growth);
+            const double z = w.frequency * dt, decay = w.decay * dt;
+            if (I::imaginary_limit > 0 && z > I::imaginary_limit)
+                warn("dt = " + text(dt) + " s is above the acoustic limit of " + I::name + ", " +
+                     text(I::imaginary_limit / w.frequency) + " s: take a smaller dt or cfl");
+            if (decay > I::real_limit)
+                warn("dt = " + text(dt) + " s is above the viscous limit of " + I::name + ", " +
+                     text(I::real_limit / w.decay) + " s: take a smaller dt or cfl");
+            if (w.net_growth * dt > 1e-12)
+                warn(std::string(I::name) + " lets sound of wavelength " + text(w.wavelength) + " m grow e-fold in " +
+                     text(std::ceil(1 / (w.net_growth * dt))) +
+                     " steps beyond its damping: take a smaller cfl, Leapfrog, or " +
+                     "more ArtificialViscosity or DensityDiffusion");
+        }
+        if (stiffness_.contact_frequency > 0) {
+            const double z = stiffness_.contact_frequency * dt;
+            if (I::growth(z) > 0)
+                warn(std::string(I::name) + " multiplies the energy of an undamped contact by " +
+                     text(std::exp(2 * std::log1p(I::growth(z)) * std::numbers::pi / z)) +
+                     " at this dt: take SymplecticEuler or Leapfrog");
+            else if (z > std::numbers::pi / 10)
+                warn("the contact is under-resolved: dt = " + text(dt) + " s is above a tenth of the contact time, " +
+                     text(std::numbers::pi / stiffness_.contact_frequency) + " s");
+        }
     }
     [[noreturn]] void stop_dt(double dt) const
     {

@@ -10,6 +10,7 @@
 #include "spate/boundary/by_continuity.hpp"
 #include "spate/boundary/open.hpp"
 #include "spate/boundary/periodic.hpp"
+#include "spate/concepts.hpp"
 #include "spate/integrator/forward_euler.hpp"
 #include "spate/integrator/leapfrog.hpp"
 #include "spate/integrator/runge_kutta2.hpp"

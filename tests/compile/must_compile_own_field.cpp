@@ -6,6 +6,7 @@ using namespace spate;
 
 namespace {
 
+//[field
 struct Temperature;
 inline constexpr struct TemperatureRate : ScalarField {
     static constexpr std::string_view name = "temperature_rate", unit = "K/s";
@@ -17,7 +18,9 @@ inline constexpr struct Temperature : ScalarField {
     static constexpr Kind kind = Kind::drift;
     using rates = Fields<TemperatureRate>;
 } temperature{};
+//]
 
+//[conduction
 /// Heat conduction (Cleary & Monaghan 1999) at equal conductivity: dT_i/dt = sum_j 2 a V_j T_ij x_ij . grad W_ij / r^2.
 struct HeatConduction {
     static constexpr Fields reads{temperature};
@@ -30,6 +33,7 @@ struct HeatConduction {
         i[temperature_rate] += 2 * a * V_j * ij.over_r2 * (i[temperature] - j[temperature]) * ij.x.dot(ij.grad_w);
     }
 };
+//]
 
 auto bath()
 {

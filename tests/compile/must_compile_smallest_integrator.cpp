@@ -6,6 +6,7 @@ using namespace spate;
 
 namespace {
 
+//[integrator
 struct DriftKick { // x+ = x + dt v; v+ = v + dt a(x+)
     static constexpr const char* name = "drift_kick";
     static constexpr int order = 1, evaluations = 1;
@@ -22,6 +23,7 @@ struct DriftKick { // x+ = x + dt v; v+ = v + dt a(x+)
     }
 };
 static_assert(Integrator<DriftKick>);
+//]
 
 } // namespace
 

@@ -6,6 +6,7 @@ using namespace spate;
 
 namespace {
 
+//[kernel
 struct Parabola { // Epanechnikov 1969 in 2D: W = 2/(pi h^2) (1 - q^2)
     static constexpr int dim = 2;
     static constexpr double radius = 1;
@@ -16,6 +17,7 @@ struct Parabola { // Epanechnikov 1969 in 2D: W = 2/(pi h^2) (1 - q^2)
     static auto g(auto q) { return where(q < 1, decltype(q)(-2), 0); }
 };
 static_assert(Kernel<Parabola>);
+//]
 
 } // namespace
 

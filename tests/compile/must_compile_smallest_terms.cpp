@@ -6,6 +6,7 @@ using namespace spate;
 
 namespace {
 
+//[terms
 struct Drag {
     static constexpr Fields reads{velocity};
     static constexpr Fields adds{acceleration};
@@ -23,6 +24,7 @@ struct Alignment {
 };
 static_assert(ParticleTerm<Drag> && !PairTerm<Drag>);
 static_assert(PairTerm<Alignment> && !ParticleTerm<Alignment>);
+//]
 static_assert(Term<Drag> && Term<Alignment>);
 
 } // namespace

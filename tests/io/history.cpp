@@ -56,12 +56,12 @@ TEST_F(HistoryTest, HasTheStateOfTheSceneInEachRow)
     History history(folder, 0, Front{dx}, WallForce{}, floor);
     tank.run({.steps = 7}, history);
     const Table t = table();
-    const std::vector<std::string> names{"step",        "t",           "dt",          "dt_criterion", "kinetic",
-                                         "potential",   "compressive", "dissipated",  "momentum_x",   "momentum_y",
-                                         "max_speed",   "density_min", "density_max", "front",        "wall_force_x",
+    const std::vector<std::string> names{"step",         "t",           "dt",          "dt_criterion", "kinetic",
+                                         "potential",    "compressive", "dissipated",  "momentum_x",   "momentum_y",
+                                         "max_speed",    "density_min", "density_max", "front",        "wall_force_x",
                                          "wall_force_y", "p_floor"};
     EXPECT_EQ(t.names, names);
-    ASSERT_EQ(t.rows.size(), 8u);  // the start and each step
+    ASSERT_EQ(t.rows.size(), 8u); // the start and each step
     EXPECT_EQ(t.at(0, "t"), 0);
     EXPECT_EQ(t.at(0, "front"), 0.5);
     // The last row, bit for bit: the shortest decimals read back as the same numbers.
@@ -183,4 +183,4 @@ TEST_F(HistoryTest, SaysThatItCannotBeWritten)
     }
 }
 
-}  // namespace
+} // namespace

@@ -58,4 +58,4 @@ TEST(Progress, RenewsOneLineInATerminal)
 
 TEST(Progress, IsSilentWhenAsked) { EXPECT_EQ(told(1, unlimited, Progress::Shown::nothing, 1000), ""); }
 
-}  // namespace
+} // namespace

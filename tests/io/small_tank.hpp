@@ -31,8 +31,8 @@ protected:
     void SetUp() override
     {
         const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-        folder = std::filesystem::temp_directory_path() /
-                 (std::string("spate_") + test->test_suite_name() + "_" + test->name() + "_" + std::to_string(::getpid()));
+        folder = std::filesystem::temp_directory_path() / (std::string("spate_") + test->test_suite_name() + "_" +
+                                                           test->name() + "_" + std::to_string(::getpid()));
         std::filesystem::remove_all(folder);
         std::filesystem::create_directories(folder);
     }
@@ -46,4 +46,4 @@ protected:
     std::filesystem::path folder;
 };
 
-}  // namespace small_tank
+} // namespace small_tank

@@ -20,7 +20,8 @@ TEST(CloudOf, HoldsAllSpeciesInTheOrderOfTheirIds)
     ASSERT_EQ(cloud.size(), fluid.size() + wall.size());
     std::vector<std::string> names;
     for (auto const& c : cloud.columns) names.push_back(c.name);
-    EXPECT_EQ(names, (std::vector<std::string>{"velocity", "density", "pressure"}));  // neither rates nor what is uniform
+    EXPECT_EQ(names,
+              (std::vector<std::string>{"velocity", "density", "pressure"})); // neither rates nor what is uniform
     auto same = [&](auto const& p, std::size_t first, std::uint8_t species) {
         for (std::size_t i = 0; i < p.size(); ++i) {
             const std::size_t k = first + p.id()[i];
@@ -43,7 +44,7 @@ TEST_F(SnapshotsTest, AreWrittenAtEvenTimesAndAtTheEnd)
     auto tank = small_tank::scene();
     Snapshots snapshots(folder, "tank", 1 / 1024.0);
     tank.run({.steps = 9, .dt = 1 / 4096.0}, snapshots);
-    EXPECT_EQ(snapshots.count(), 4u);  // t = 0, 4/4096, 8/4096, 9/4096
+    EXPECT_EQ(snapshots.count(), 4u); // t = 0, 4/4096, 8/4096, 9/4096
     EXPECT_EQ(snapshots.last(), folder / "tank_000003.hdf");
     for (auto* name : {"tank_000000.hdf", "tank_000001.hdf", "tank_000002.hdf", "tank_000003.hdf", "tank.hdf.series"})
         EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
@@ -59,4 +60,4 @@ TEST_F(SnapshotsTest, AreOneOfTheLastStateIfNoIntervalIsGiven)
     EXPECT_THROW(Snapshots(folder, "tank", -1), BadInput);
 }
 
-}  // namespace
+} // namespace

@@ -25,7 +25,7 @@ using Counts = std::pair<long, long>;
 
 TEST(DamBreak, HasTheMarkersOfThePeers)
 {
-    EXPECT_EQ(counts<3>("big"), Counts(80000, 58428));  // 138,428
+    EXPECT_EQ(counts<3>("big"), Counts(80000, 58428)); // 138,428
     EXPECT_EQ(counts<3>("small"), Counts(5120, 10476));
     EXPECT_EQ(counts<2>("2d"), Counts(31250, 3018));
     EXPECT_EQ(counts<3>("default"), Counts(4096, 60156));
@@ -34,7 +34,7 @@ TEST(DamBreak, HasTheMarkersOfThePeers)
 TEST(DamBreak, TakesASpacingThatDividesItsBoxes)
 {
     EXPECT_EQ(counts<3>("default", 0.15 / 4).first, 8 * 4 * 16);
-    EXPECT_EQ(column<3>("default", 0.01875 * (1 + 1e-9)).spacing, 0.01875);  // to rounding
+    EXPECT_EQ(column<3>("default", 0.01875 * (1 + 1e-9)).spacing, 0.01875); // to rounding
     EXPECT_EQ(column<2>("2d", 0.01).spacing, 0.01);
 }
 
@@ -45,12 +45,14 @@ TEST(DamBreak, NamesTheNearestSpacingThatDivides)
         FAIL();
     }
     catch (BadInput const& e) {
-        EXPECT_STREQ(e.what(), "spate: spacing is 0.019; allowed is 0.15 m over a whole number, so that it divides the boxes; "
-                               "the nearest is 0.01875 m");
+        EXPECT_STREQ(e.what(),
+                     "spate: spacing is 0.019; allowed is 0.15 m over a whole number, so that it divides the boxes; "
+                     "the nearest is 0.01875 m");
     }
-    for (double wrong : {-0.01, std::nan(""), 1.0, 1e300, 1e-9, 1e-300}) EXPECT_THROW(column<3>("default", wrong), BadInput) << wrong;
+    for (double wrong : {-0.01, std::nan(""), 1.0, 1e300, 1e-9, 1e-300})
+        EXPECT_THROW(column<3>("default", wrong), BadInput) << wrong;
     EXPECT_THROW(column<3>("2d", 0), BadInput);
     EXPECT_THROW(column<2>("big", 0), BadInput);
 }
 
-}  // namespace
+} // namespace

@@ -29,7 +29,7 @@ TEST(Gauge, SeesASmoothingLengthAside)
     EXPECT_EQ((Gauge{"depth", Point{0.5, 0}, dx}(scene)), 0.125 + dx / 2);
     scene.add({0.5 - 0.99 * h, 0.625});
     EXPECT_EQ((Gauge{"depth", Point{0.5, 0}, dx}(scene)), 0.625 + dx / 2);
-    EXPECT_EQ((Gauge{"depth", Point{0.2, 0}, dx}(scene)), 0);  // dry
+    EXPECT_EQ((Gauge{"depth", Point{0.2, 0}, dx}(scene)), 0); // dry
 }
 
 TEST(Gauge, SeesThroughAPeriodicFace)
@@ -40,4 +40,4 @@ TEST(Gauge, SeesThroughAPeriodicFace)
     EXPECT_EQ((Gauge{"depth", Point{0, 0}, dx}(scene)), 0.25 + dx / 2);
 }
 
-}  // namespace
+} // namespace

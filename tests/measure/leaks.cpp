@@ -20,8 +20,8 @@ TEST(Leaks, BeginHalfASpacingBeyondAWall)
 {
     auto scene = measured::tank(0, 30);
     scene.add({0.5, 0.5});
-    scene.add({0.5, 3});            // over the open top
-    scene.add({-0.49 * dx, 0.5});   // in the skin of the wall
+    scene.add({0.5, 3});          // over the open top
+    scene.add({-0.49 * dx, 0.5}); // in the skin of the wall
     scene.add({0.5, -0.49 * dx});
     EXPECT_EQ(Leaks{dx}(scene), 0);
     scene.add({-0.51 * dx, 0.5});
@@ -40,4 +40,4 @@ TEST(Leaks, AreNoneThroughAPeriodicFace)
     EXPECT_EQ(Leaks{dx}(scene), 1);
 }
 
-}  // namespace
+} // namespace

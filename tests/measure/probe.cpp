@@ -24,7 +24,7 @@ TEST(Probe, IsTheMeanWeightedByVolumeAndKernel)
     auto scene = measured::tank(0, 30);
     put(scene, {0.5, 0.5}, 1000, 100, {3, 0});
     put(scene, {0.5 + h, 0.5}, 500, 700, {0, 6});
-    put(scene, {0.5, 0.5 - 2.01 * h}, 1000, 1e9, {1e9, 1e9});  // beyond the support
+    put(scene, {0.5, 0.5 - 2.01 * h}, 1000, 1e9, {1e9, 1e9}); // beyond the support
     const measured::Point at{0.5, 0.5};
     EXPECT_NEAR((Probe{"p", pressure, at}(scene)), (4 * 100 + 2 * 700) / 6.0, 1e-10);
     EXPECT_NEAR((Probe{"rho", density, at}(scene)), (4 * 1000 + 2 * 500) / 6.0, 1e-10);
@@ -57,4 +57,4 @@ TEST(Probe, OfNothingIsNotANumber)
     EXPECT_TRUE(std::isnan(Probe{"p", pressure, measured::Point{0.5, 0.8}}(still)));
 }
 
-}  // namespace
+} // namespace

@@ -16,9 +16,10 @@ auto tank(double depth, double c0, Options... options)
     using namespace spate;
     auto water = wcsph(CubicSpline<2>{.h = h}, Tait{.rho0 = 1000, .c0 = c0}, Continuity<2>{}, PressureForce<2>{},
                        ArtificialViscosity{.alpha = 0.1}, Gravity<2>{{0, -g}});
-    Simulation still(water, SymplecticEuler{}, Bce(Box<2>{{0, 0}, {1, 1}}, dx, Adami{}, open(top), options...), Serial{});
+    Simulation still(water, SymplecticEuler{}, Bce(Box<2>{{0, 0}, {1, 1}}, dx, Adami{}, open(top), options...),
+                     Serial{});
     if (depth > 0) still.fill(Box<2>{{0, 0}, {1, depth}}, dx, hydrostatic);
     return still;
 }
 
-}  // namespace measured
+} // namespace measured

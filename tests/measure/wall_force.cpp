@@ -39,9 +39,9 @@ TEST(WallForce, OfWaterAtRestIsItsWeight)
         const Point force = WallForce{}(still);
         const double weight = 1000 * depth * 1 * g;
         EXPECT_NEAR(force[1] / -weight, gradient_sum(), 3 * epsilon);
-        EXPECT_NEAR(force[0] / weight, 0, 1e-12);  // the thrusts on left and right balance
+        EXPECT_NEAR(force[0] / weight, 0, 1e-12); // the thrusts on left and right balance
     }
-    EXPECT_NEAR(gradient_sum(), 1, 0.02);  // the discretisation: numerics of the cubic spline near h = 1.2 dx
+    EXPECT_NEAR(gradient_sum(), 1, 0.02); // the discretisation: numerics of the cubic spline near h = 1.2 dx
 }
 
 /// Water that has been stirred: jitter of a tenth of a spacing, random velocities.
@@ -76,14 +76,15 @@ TEST(WallForce, IsTheSumOfTheForcesOnTheMarkers)
             const double r2 = x.squaredNorm(), rho_w = wall.at(density, w), rho_f = fluid.at(density, f);
             if (r2 >= 4 * h * h) continue;
             const Point grad_w = kernel.sigma() / (h * h) * CubicSpline<2>::g(std::sqrt(r2) / h) * x;
-            const double mu = h * std::min(v.dot(x), 0.0) / (r2 + 0.01 * h * h), Pi = -2 * alpha * c0 * mu / (rho_w + rho_f);
+            const double mu = h * std::min(v.dot(x), 0.0) / (r2 + 0.01 * h * h),
+                         Pi = -2 * alpha * c0 * mu / (rho_w + rho_f);
             const double a = wall.at(pressure, w) / (rho_w * rho_w) + fluid.at(pressure, f) / (rho_f * rho_f) + Pi;
             sum -= (m * m * a) * grad_w;
             size += m * m * std::abs(a) * std::sqrt(grad_w.squaredNorm());
         }
     const Point force = WallForce{}(scene);
     for (int c = 0; c < 2; ++c) EXPECT_NEAR(force[c], sum[c], 1e-12 * size);
-    EXPECT_GT(size, 1000 * 0.4 * g);  // there was something to sum
+    EXPECT_GT(size, 1000 * 0.4 * g); // there was something to sum
 }
 
 // The rate of change of momentum is the weight and the force of the walls: pairs within the fluid cancel.
@@ -120,4 +121,4 @@ TEST(WallForce, ChangesNothing)
     }
 }
 
-}  // namespace
+} // namespace

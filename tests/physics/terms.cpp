@@ -29,16 +29,37 @@ auto record(State<Dim> const& s)
 template <class V, int Dim>
 using Sums = Record<Dim, V, Fields<Acceleration, DensityRate>>;
 
-/// What a term adds to i of a pair, by the code of the sweep.
-template <class V, int Dim>
-Sums<V, Dim> add_pair(auto const& interaction, auto const& term, State<Dim> const& i, State<Dim> const& j,
+/// The geometry of a pair as an interaction gives it.
+template <class V, class I>
+auto geometry(I const& interaction, auto const& ri, auto const& rj)
+{
+    using R = std::remove_cvref_t<decltype(ri)>;
+    const Record<I::dim, V, Fields<>> uniform;
+    using Seen = View<std::remove_cv_t<decltype(I::reads)>, Fields<>, R, std::remove_cv_t<decltype(uniform)>, void>;
+    return interaction.template pair<V>(Seen{ri, uniform, nullptr, {}}, Seen{rj, uniform, nullptr, {}});
+}
+/// What a term adds to i of a pair; it sees of i and j what it has declared, and no more.
+template <class V, int Dim, class T>
+Sums<V, Dim> add_pair(auto const& interaction, T const& term, State<Dim> const& i, State<Dim> const& j,
                       Sums<V, Dim> sums)
 {
     const auto ri = record<V>(i), rj = record<V>(j);
-    const Record<Dim, V, Fields<>> uniform;
-    detail::apply(
-        term, ri, uniform, rj, uniform, sums,
-        detail::pair_of<std::remove_cvref_t<decltype(interaction)>, V>(interaction, ri, uniform, rj, uniform));
+    using R = std::remove_cv_t<decltype(ri)>;
+    using U = Record<Dim, V, Fields<>>;
+    const U uniform;
+    const auto ij = geometry<V>(interaction, ri, rj);
+    const View<std::remove_cvref_t<decltype(reads_j<T>())>, Fields<>, R, U, void> of_j{rj, uniform, nullptr, {}};
+    using Readable = std::remove_cvref_t<decltype(reads_i<T>())>;
+    using Addable = std::remove_cvref_t<decltype(adds<T>())>;
+    if constexpr (requires { ij.mask; }) {
+        View<Readable, Addable, R, U, Sums<V, Dim>, std::remove_cvref_t<decltype(ij.mask)>> of_i{ri, uniform, &sums,
+                                                                                                 ij.mask};
+        term(of_i, of_j, ij);
+    }
+    else {
+        View<Readable, Addable, R, U, Sums<V, Dim>> of_i{ri, uniform, &sums, {}};
+        term(of_i, of_j, ij);
+    }
     return sums;
 }
 template <int Dim>
@@ -69,8 +90,7 @@ void expect_number(double a, double b) { EXPECT_NEAR(a, b, 1e-14 * std::abs(b));
 
 TEST(Smoothing, GivesAPairItsGeometry)
 {
-    const auto ij = detail::pair_of<Smoothing<WendlandC2<2>>, double>(
-        plane, record<double>(i), Record<2, double, Fields<>>{}, record<double>(j), Record<2, double, Fields<>>{});
+    const auto ij = geometry<double>(plane, record<double>(i), record<double>(j));
     expect_vector(ij.x, 0.6, 0.8);
     expect_number(ij.r2, 1);
     EXPECT_EQ(ij.h, 1);

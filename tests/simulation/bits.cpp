@@ -61,9 +61,11 @@ TEST(Bits, DoNotDependOnTheSkinNorOnHowListsAreBlocked)
 // What the hash can see: the order of neighbours in a sum, when lists are rebuilt, one unit in the last place.
 TEST(Bits, ChangeWithTheOrderOfNeighbours)
 {
-    EXPECT_NE(dam(Serial{}, {.bins = 1.4, .trigger = 0.1}).hash, reference().hash);
-    EXPECT_NE(dam(Serial{}, {.trigger = 0.1, .finer = 3}).hash, reference().hash);
-    EXPECT_EQ(dam(Serial{}, {.trigger = 0.1}).hash, reference().hash); // the default, spelled out
+    const Neighbours usual;
+    const double trigger = usual.closed_in();
+    EXPECT_EQ(dam(Serial{}, {.trigger = trigger}).hash, reference().hash); // lists are rebuilt as often
+    EXPECT_NE(dam(Serial{}, {.bins = 1.3 * usual.bin_edge(), .trigger = trigger}).hash, reference().hash);
+    EXPECT_NE(dam(Serial{}, {.trigger = trigger, .finer = usual.finer + 1}).hash, reference().hash);
 }
 TEST(Bits, ChangeWithTheLastBitOfOneParticle)
 {

@@ -52,7 +52,7 @@ Outcome vortices(Backend backend, Neighbours neighbours = {})
         };
         p.put(velocity, i, {{wave(x[1]), wave(x[2]), wave(x[0])}});
     });
-    return outcome(sim, 600);
+    return outcome(sim, 200);
 }
 
 /// Discs that bounce off each other in a periodic box.
@@ -68,7 +68,7 @@ Outcome discs(Backend backend, Neighbours neighbours = {})
     auto uniform = [&] { return double(random()) / 2147483648.0 - 1; };
     for (int n = 0; n < side * side; ++n)
         sim.add({{(n % side + 0.5) * pitch, (n / side + 0.5) * pitch}}, {{uniform(), uniform()}});
-    return outcome(sim, 3000);
+    return outcome(sim, 1000);
 }
 
 } // namespace scenes

@@ -91,7 +91,7 @@ concept ParticleTerm = requires(T const t, detail::Any& a)
 template <class T>
 concept Term = PairTerm<T> || ParticleTerm<T>;
 
-/// `field += x` that lands only in the lanes of a mask.
+/// A field of which only the lanes of a mask change.
 template <class M, class X>
 struct Masked {
     M m;
@@ -104,6 +104,13 @@ struct Masked {
         x = where(m, X(y), x);
     }
     [[gnu::always_inline]] operator X const&() const { return x; }
+    [[gnu::always_inline]] friend X operator+(Masked const& a, X const& b) { return a.x + b; }
+    [[gnu::always_inline]] friend X operator-(Masked const& a, X const& b) { return a.x - b; }
+    template <class Y>
+    [[gnu::always_inline]] friend auto operator*(Y const& y, Masked const& a)
+    {
+        return y * a.x;
+    }
 };
 /// No mask: every lane counts.
 struct Always {};
@@ -131,8 +138,9 @@ struct View {
         else if constexpr (read && R::template has<F>) return (record[f]);
         else if constexpr (read && U::template has<F>) return (uniform[f]);
         else if constexpr (std::is_void_v<S>)
-            static_assert(read && !read, "spate: the term uses a field of j that it does not declare; name it in reads or "
-                                         "reads_j, for an interaction in its reads; a pair term changes i only");
+            static_assert(read && !read,
+                          "spate: the term uses a field of j that it does not declare; name it in reads or "
+                          "reads_j, for an interaction in its reads; a pair term changes i only");
         else
             static_assert(read && !read, "spate: the term uses a field that it does not declare; name it in the term's "
                                          "reads, writes, adds or keeps");

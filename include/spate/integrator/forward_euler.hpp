@@ -3,6 +3,8 @@
 /// \brief Forward Euler, kept for comparison: it creates energy at every step size on an undamped oscillator.
 #pragma once
 
+#include <cmath>
+
 namespace spate {
 
 /// y+ = y + dt f(y). On the imaginary axis |R|^2 = 1 + z^2: grows at every dt; on the negative real axis |z| <= 2.
@@ -17,7 +19,7 @@ struct ForwardEuler {
     static constexpr double imaginary_limit = 0; ///< largest stable omega dt without damping
     static constexpr double real_limit = 2;      ///< largest stable rate * dt of a decay
     /// Amplitude growth less 1 over a step, of an undamped oscillation at z = omega dt.
-    static double growth(double z) { return z * z / 2; }
+    static double growth(double z) { return std::sqrt(1 + z * z) - 1; }
 
     void step(auto& s, double dt) const
     {

@@ -109,7 +109,7 @@ private:
         std::remove_cvref_t<decltype(std::declval<Scene&>().particles())>::template has<Density>;
 
     template <class Scene>
-    std::string heading(Scene& scene) const
+    [[gnu::cold]] std::string heading(Scene& scene) const
     {
         detail::Row row;
         std::set<std::string> taken;
@@ -137,7 +137,7 @@ private:
         for (auto const& name : names) f(name);
     }
     template <class Scene>
-    void write(Scene& scene)
+    [[gnu::cold]] void write(Scene& scene) // seldom: small and quick to compile
     {
         scene.refresh();
         const auto e = scene.energy();

@@ -63,7 +63,7 @@ void append(Column& column, Particles const& p, std::size_t i, F field)
 
 /// All particles of a scene, with the fields that its mobile particles show.
 template <class Scene>
-Cloud cloud_of(Scene const& scene)
+[[gnu::cold]] Cloud cloud_of(Scene const& scene)
 {
     using Mobile = std::remove_cvref_t<decltype(scene.particles())>;
     constexpr auto fields = detail::shown_of<Mobile>(Mobile::fields | Mobile::uniform);
@@ -107,7 +107,7 @@ public:
     std::size_t count() const { return series_.times().size(); }
 
 private:
-    void write(auto& scene)
+    [[gnu::cold]] void write(auto& scene) // seldom: small and quick to compile
     {
         scene.refresh();
         last_ = series_.write(cloud_of(scene));

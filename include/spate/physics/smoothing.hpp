@@ -3,6 +3,7 @@
 /// \brief The interaction of smoothed particles: every pair within the kernel's support.
 #pragma once
 
+#include "spate/cells/neighbours.hpp"
 #include "spate/core/errors.hpp"
 #include "spate/core/fields.hpp"
 #include "spate/kernel/kernel.hpp"
@@ -26,6 +27,8 @@ struct Smoothing {
                   "spate: Smoothing needs a kernel: dim, h, radius, sigma(), f(q), g(q); see kernel/kernel.hpp");
     static constexpr int dim = K::dim;
     static constexpr Fields reads{position};
+    /// Long lists: a thin skin, and blocks of like length.
+    static constexpr Neighbours neighbours{.skin = 0.07, .finer = 4, .window = 16};
     K kernel;
 
     [[nodiscard]] double range() const { return K::radius * kernel.h; }

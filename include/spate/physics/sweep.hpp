@@ -25,48 +25,91 @@ struct Packed {
 };
 
 /// One source of a sweep: its records, what is uniform in it, the lists target <- source, and the terms that read it.
-template <Mask terms_, class P, class R>
+/// \tparam Kept_  what the terms keep of its pairs
+template <Mask terms_, class Kept_, class P, class R>
 struct Source {
     static constexpr Mask terms = terms_;
+    using Kept = Kept_;
     using L = typename R::L;
     P const& particles;
     R const& packed;
     Lists<P::dim> const& lists;
     bool same; ///< the target's own species
+    std::vector<Array<typename P::real>>*
+        memory; ///< of the pairs, by cell; of W lanes together, component by component
 };
 
 namespace detail {
 template <Mask terms, std::size_t t>
 inline constexpr bool picked = ((terms >> t) & 1) != 0;
 
-/// One term on one pack of pairs.
-template <class Ri, class Ui, class Rj, class Uj, class A, class Pair, class T>
+/// One term on one pack of pairs; `kept` is the memory of the pairs.
+template <class Ri, class Ui, class Rj, class Uj, class A, class Pair, class T, class K = void>
 [[gnu::always_inline]] inline void apply(T const& term, Ri const& ri, Ui const& ui, Rj const& rj, Uj const& uj, A& sums,
-                                         Pair const& ij)
+                                         Pair const& ij, K* kept = nullptr)
 {
     using Readable_i = std::remove_cvref_t<decltype(reads_i<T>())>;
     using Readable_j = std::remove_cvref_t<decltype(reads_j<T>())>;
     using Addable = std::remove_cvref_t<decltype(adds<T>())>;
+    using H = std::conditional_t<decltype(keeps<T>())::size == 0, void, K>;
+    H* memory = nullptr;
+    if constexpr (!std::is_void_v<H>) memory = kept;
     const View<Readable_j, Fields<>, Rj, Uj, void> j{rj, uj, nullptr, {}};
     if constexpr (requires { ij.mask; }) {
-        View<Readable_i, Addable, Ri, Ui, A, std::remove_cvref_t<decltype(ij.mask)>> i{ri, ui, &sums, ij.mask};
+        using M = std::remove_cvref_t<decltype(ij.mask)>;
+        View<Readable_i, Addable, Ri, Ui, A, M, H> i{ri, ui, &sums, ij.mask, memory};
         term(i, j, ij);
     }
     else {
-        View<Readable_i, Addable, Ri, Ui, A> i{ri, ui, &sums, {}};
+        View<Readable_i, Addable, Ri, Ui, A, Always, H> i{ri, ui, &sums, {}, memory};
         term(i, j, ij);
     }
 }
-template <Mask terms, class Ri, class Ui, class Rj, class Uj, class A, class Pair, class... T, std::size_t... t>
+template <Mask terms, class Ri, class Ui, class Rj, class Uj, class A, class Pair, class... T, std::size_t... t,
+          class K = void>
 [[gnu::always_inline]] inline void apply_all(std::tuple<T...> const& all, Ri const& ri, Ui const& ui, Rj const& rj,
-                                             Uj const& uj, A& sums, Pair const& ij, std::index_sequence<t...>)
+                                             Uj const& uj, A& sums, Pair const& ij, std::index_sequence<t...>,
+                                             K* kept = nullptr)
 {
     auto one = [&]<std::size_t k>(std::integral_constant<std::size_t, k>) __attribute__((always_inline))
     {
-        if constexpr (picked<terms, k>) apply(std::get<k>(all), ri, ui, rj, uj, sums, ij);
+        if constexpr (picked<terms, k>) apply(std::get<k>(all), ri, ui, rj, uj, sums, ij, kept);
     };
     (one(std::integral_constant<std::size_t, t>{}), ...);
 }
+/// The memory of W pairs: loaded before the terms, stored after them; out of contact it is zero.
+template <int Dim, class V, class S>
+struct Kept;
+template <int Dim, class V, class... F>
+struct Kept<Dim, V, Fields<F...>> {
+    using L = Layout<Dim, Fields<F...>>;
+    Record<Dim, V, Fields<F...>> record;
+    scalar_t<V>* at;
+
+    [[gnu::always_inline]] explicit Kept(scalar_t<V>* place) : at(place)
+    {
+        each([&](V& v, int k) { v = load<V>(at + k * width<V>); });
+    }
+    [[gnu::always_inline]] void put_back(auto const& mask)
+    {
+        each([&](V& v, int k) { store(at + k * width<V>, where(mask, v, V(0))); });
+    }
+    [[gnu::always_inline]] void put_back()
+    {
+        each([&](V& v, int k) { store(at + k * width<V>, v); });
+    }
+
+private:
+    [[gnu::always_inline]] void each(auto const& f)
+    {
+        auto one = [&]<class G>(G g) {
+            if constexpr (G::rank == 0) f(record[g], L::template offset<G>);
+            else
+                for (int c = 0; c < Dim; ++c) f(record[g][c], L::template offset<G> + c);
+        };
+        (one(F{}), ...);
+    }
+};
 template <class I, class V, class Ri, class Ui, class Rj, class Uj>
 [[gnu::always_inline]] inline auto pair_of(I const& interaction, Ri const& ri, Ui const& ui, Rj const& rj, Uj const& uj)
 {
@@ -88,9 +131,20 @@ template <class V, class I, class Tuple, class Ri, class Ui, class A, class Src>
     for (; index != end; index += width<V>) {
         const auto rj = gathered<V>(base, index, L{});
         const auto ij = pair_of<I, V>(interaction, ri, ui, rj, uj);
-        if constexpr (requires { ij.mask; })
-            if (!spate::any(ij.mask)) continue; // qualified: xsimd has one too
-        apply_all<Src::terms>(all, ri, ui, rj, uj, sums, ij, std::make_index_sequence<std::tuple_size_v<Tuple>>{});
+        constexpr auto terms = std::make_index_sequence<std::tuple_size_v<Tuple>>{};
+        if constexpr (Src::Kept::size > 0) {
+            using Memory = Kept<I::dim, V, typename Src::Kept>;
+            const auto row = std::size_t(index - lists.index.data()) / std::size_t(width<V>);
+            Memory kept((*source.memory)[cell].data() + row * std::size_t(Memory::L::count * width<V>));
+            apply_all<Src::terms>(all, ri, ui, rj, uj, sums, ij, terms, &kept.record);
+            if constexpr (requires { ij.mask; }) kept.put_back(ij.mask);
+            else kept.put_back();
+        }
+        else {
+            if constexpr (requires { ij.mask; })
+                if (!spate::any(ij.mask)) continue; // qualified: xsimd has one too
+            apply_all<Src::terms>(all, ri, ui, rj, uj, sums, ij, terms);
+        }
     }
 }
 /// Terms that count i with itself, and particle terms that add to the same sums.

@@ -4,6 +4,7 @@
 /// fields by their rates. Knows no integrator, no file, no clock.
 #pragma once
 
+#include "spate/cells/pair_memory.hpp"
 #include "spate/core/precision.hpp"
 #include "spate/core/reduction.hpp"
 #include "spate/physics/model.hpp"
@@ -112,6 +113,11 @@ public:
     void rebuild()
     {
         wrap();
+        each_memory([&](auto s, auto q, auto& aside, auto& memory) {
+            if (have_lists_)
+                aside.take(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
+                           species<q()>().particles, species<q()>().bins, width<V>);
+        });
         each_species([&](auto s) {
             auto& x = species<s()>();
             if (s() != 0 && sorted_markers_) return;
@@ -132,6 +138,10 @@ public:
             if constexpr (meets_0 && meets_1) build(from<s(), 0>(), from<s(), 1>());
             else if constexpr (meets_0) build(from<s(), 0>());
             else if constexpr (meets_1) build(from<s(), 1>());
+        });
+        each_memory([&](auto s, auto q, auto& aside, auto& memory) {
+            aside.give(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
+                       species<q()>().particles, species<q()>().bins, width<V>);
         });
         have_lists_ = true;
         ++rebuilds_;
@@ -535,6 +545,34 @@ private:
         else if constexpr (from_1 != 0) run_with(source<s, 1, from_1>());
         else run_with();
     }
+    /// What the terms of s <- q keep of a pair.
+    template <int s, int q>
+    static constexpr auto kept()
+    {
+        return []<class... X, std::size_t... t>(std::tuple<X...> const*, std::index_sequence<t...>) {
+            return (Fields<>{} | ... | kept_of < X, M::planner.on(int(t), s) && M::planner.from(int(t), s, q) > ());
+        }(static_cast<typename M::Terms const*>(nullptr), std::make_index_sequence<std::size_t(M::terms)>{});
+    }
+    template <class X, bool meets>
+    static constexpr auto kept_of()
+    {
+        if constexpr (meets) return keeps<X>();
+        else return Fields<>{};
+    }
+    template <int s, int q>
+    static constexpr int kept_values = Layout<dim, Set<kept<s, q>()>>::count;
+    /// f(s, q, memory set aside, memory by cell) for each pair of species of which something is kept.
+    void each_memory(auto const& f)
+    {
+        each_species([&](auto s) {
+            each_species([&](auto q) {
+                if constexpr (kept_values < s(), q() >> 0) {
+                    auto& aside = std::get<std::size_t(s() * species_count + q())>(aside_);
+                    f(s, q, aside, memory_[std::size_t(s() * species_count + q())]);
+                }
+            });
+        });
+    }
     template <int s, int q>
     auto from()
     {
@@ -544,11 +582,11 @@ private:
             Layout<dim, Set<M::template record<q>()>>::stride, s == q};
     }
     template <int s, int q, Mask terms>
-    auto source() const
+    auto source()
     {
         auto const& x = species<q>();
-        return Source<terms, ParticlesOf<q>, std::remove_cvref_t<decltype(x.packed)>>{x.particles, x.packed,
-                                                                                      lists<s, q>(), s == q};
+        return Source<terms, Set<kept<s, q>()>, ParticlesOf<q>, std::remove_cvref_t<decltype(x.packed)>>{
+            x.particles, x.packed, lists<s, q>(), s == q, &memory_[std::size_t(s * species_count + q)]};
     }
     /// The sets one after the other, a stretch of particles at a time: it is in the cache for the second set.
     template <bool from_start, class... Sets>
@@ -626,7 +664,8 @@ private:
         e.moved = std::sqrt(double(largest(x2, lanes)));
         for (int c = 0; c < dim; ++c) {
             const auto k = std::size_t(c);
-            e.least_move[k] = -double(largest(V(V(0) - least_x[c]), lanes)), e.most_move[k] = double(largest(most_x[c], lanes));
+            e.least_move[k] = -double(largest(V(V(0) - least_x[c]), lanes)),
+            e.most_move[k] = double(largest(most_x[c], lanes));
             e.least_velocity[k] = -double(largest(V(V(0) - least_v[c]), lanes)),
             e.most_velocity[k] = double(largest(most_v[c], lanes));
         }
@@ -653,6 +692,14 @@ private:
     };
     typename All<std::make_integer_sequence<int, species_count>>::type species_;
     std::array<Lists<dim>, std::size_t(species_count* species_count)> lists_;
+    template <class S>
+    struct AllMemory;
+    template <int... k>
+    struct AllMemory<std::integer_sequence<int, k...>> {
+        using type = std::tuple<PairMemory<T, kept_values<k / species_count, k % species_count>>...>;
+    };
+    typename AllMemory<std::make_integer_sequence<int, species_count * species_count>>::type aside_;
+    std::array<std::vector<Array<T>>, std::size_t(species_count* species_count)> memory_; ///< of pairs, by cell
     bool have_lists_ = false, sorted_markers_ = false, kick_rates_ = false;
     std::int64_t rebuilds_ = 0, evaluations_ = 0, pairs_evaluated_ = 0;
 };

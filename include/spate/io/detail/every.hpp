@@ -16,15 +16,15 @@ public:
     bool due(double time)
     {
         if (interval_ <= 0) return true;
-        const double n = std::floor(time / interval_ * (1 + 1e-12));  // 3 * 0.1 is a multiple of 0.1
+        const double n = std::floor(time / interval_ * (1 + 1e-12)); // 3 * 0.1 is a multiple of 0.1
         if (n < next_) return false;
         next_ = n + 1;
         return true;
     }
 
 private:
-    double interval_;   ///< [s]
-    double next_ = 0;   ///< multiple of the interval that is waited for
+    double interval_; ///< [s]
+    double next_ = 0; ///< multiple of the interval that is waited for
 };
 
-}  // namespace spate::io::detail
+} // namespace spate::io::detail

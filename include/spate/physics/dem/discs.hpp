@@ -3,6 +3,7 @@
 /// \brief The interaction of discs and spheres: pairs that overlap.
 #pragma once
 
+#include "spate/cells/neighbours.hpp"
 #include "spate/core/errors.hpp"
 #include "spate/core/fields.hpp"
 
@@ -21,6 +22,8 @@ template <int Dim>
 struct Round {
     static constexpr int dim = Dim;
     static constexpr Fields reads{position, radius};
+    /// Short lists: a thick skin, and targets in their own order.
+    static constexpr Neighbours neighbours{.skin = 0.3, .finer = 1, .window = 1};
     double largest; ///< largest radius of the scene [m]
 
     [[nodiscard]] double range() const { return 2 * largest; }

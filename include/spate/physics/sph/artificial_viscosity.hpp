@@ -29,6 +29,11 @@ struct ArtificialViscosity {
     {
         return alpha * c0 * h / (2 * (dim + 2));
     }
+    /// Decay of a sound wave, see stability.hpp; half, since it acts on approaching pairs only [m^2/s].
+    [[nodiscard]] double acoustic_damping(double, double h, double r2, double xe2) const
+    {
+        return 0.5 * alpha * c0 * h * xe2 / (r2 + 0.01 * h * h);
+    }
 
     void operator()(auto& i, auto const& j, auto const& ij) const
     {

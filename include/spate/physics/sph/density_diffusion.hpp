@@ -28,6 +28,11 @@ struct MolteniColagrossi {
         require_non_negative("MolteniColagrossi.delta", delta, "-");
         require_positive("MolteniColagrossi.c0", c0, "m/s");
     }
+    /// Decay of a sound wave, see stability.hpp [m^2/s].
+    [[nodiscard]] double acoustic_damping(double, double h, double r2, double) const
+    {
+        return 2 * delta * c0 * h * r2 / (r2 + 0.01 * h * h);
+    }
     void operator()(auto& i, auto const& j, auto const& ij) const
     {
         const auto V_j = j[mass] * (1 / j[density]);
@@ -56,6 +61,11 @@ struct Fourtakas {
         require_non_negative("DensityDiffusion.delta", delta, "-");
         require_positive("DensityDiffusion.c0", c0, "m/s");
         require_positive("DensityDiffusion.rho0", rho0, "kg/m^3");
+    }
+    /// Decay of a sound wave, see stability.hpp [m^2/s].
+    [[nodiscard]] double acoustic_damping(double, double h, double r2, double) const
+    {
+        return 2 * delta * c0 * h * r2 / (r2 + 0.01 * h * h);
     }
     void operator()(auto& i, auto const& j, auto const& ij) const
     {

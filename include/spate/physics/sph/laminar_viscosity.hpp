@@ -25,6 +25,11 @@ struct LaminarViscosity {
     }
     /// [m^2/s]
     [[nodiscard]] double kinematic_viscosity(double rho0, double, int) const { return mu / rho0; }
+    /// Decay of a sound wave, see stability.hpp [m^2/s].
+    [[nodiscard]] double acoustic_damping(double rho0, double h, double r2, double) const
+    {
+        return 2 * mu / rho0 * r2 / (r2 + eps * h * h);
+    }
 
     void operator()(auto& i, auto const& j, auto const& ij) const
     {

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a term keeps of a pair is born zero with the contact, survives sorting and rebuilds, and dies with the contact.
+#include <spate/spate.hpp>
+
+#include <gtest/gtest.h>
+
+namespace {
+using namespace spate;
+
+inline constexpr struct Age : ScalarField {
+    static constexpr std::string_view name = "age", unit = "1";
+} age{};
+
+// A push that grows by one unit with each evaluation that a contact has lived.
+struct GrowingPush {
+    static constexpr Fields adds{acceleration};
+    static constexpr Fields keeps{age};
+    double unit; ///< [m/s^2]
+    void operator()(auto& i, auto const&, auto const& ij) const
+    {
+        i[age] += 1;
+        i[acceleration] += (unit * i[age]) * ij.n;
+    }
+};
+
+constexpr double r = 0.01, unit = 1e-6, dt = 1e-4;
+
+template <class Backend>
+auto crowd(Backend backend)
+{
+    Simulation box(dem<2>({.mass = 0.1, .radius = r}, GrowingPush{unit}), SymplecticEuler{},
+                   Periodic(Box<2>{{0, 0}, {1, 1}}), backend, Double{}, NoWatch{});
+    box.add({0.5, 0.5});
+    box.add({0.5 + 1.5 * r, 0.5});
+    for (int k = 0; k < 40; ++k) // pass by at speed and force rebuilds
+        box.add({0.021 * k + (k < 20 ? 0.01 : 0.15), 0.1 + 0.3 * (k % 2)}, {0, 4.0 + 0.02 * k});
+    return box;
+}
+template <class S>
+std::size_t index_of(S const& box, std::uint32_t id)
+{
+    auto const& ids = box.particles().id();
+    return std::size_t(std::find(ids.begin(), ids.end(), id) - ids.begin());
+}
+template <class S>
+double push_on(S const& box, std::uint32_t id) // in units
+{
+    return box.particles().at(acceleration, index_of(box, id))[0] / unit;
+}
+
+TEST(PairMemory, CountsEveryEvaluationOfAContactThroughRebuilds)
+{
+    auto box = crowd(Serial{});
+    for (int n = 1; n <= 200; ++n) {
+        box.run({.steps = 1, .dt = dt});
+        ASSERT_NEAR(push_on(box, 0), -n, 1e-9 * n) << "after step " << n;
+        ASSERT_NEAR(push_on(box, 1), n, 1e-9 * n) << "after step " << n;
+    }
+    EXPECT_GT(box.system().rebuilds(), 20);
+}
+TEST(PairMemory, DiesWithTheContactAndIsBornAtZero)
+{
+    auto box = crowd(Serial{});
+    auto move = [&](double x) { // within the list, so that no rebuild forgets the pair
+        box.particles().put(position, index_of(box, 1), {x, 0.5});
+    };
+    box.run({.steps = 5, .dt = dt});
+    EXPECT_NEAR(push_on(box, 1), 5, 1e-9);
+    move(0.5 + 2.1 * r);
+    box.run({.steps = 1, .dt = dt});
+    EXPECT_EQ(push_on(box, 1), 0);
+    move(0.5 + 1.5 * r);
+    box.run({.steps = 1, .dt = dt});
+    EXPECT_NEAR(push_on(box, 1), 1, 1e-9);
+}
+TEST(PairMemory, DoesNotDependOnThreadsCellsOrPacks)
+{
+    auto one = crowd(Serial{.cell = 16});
+    auto two = crowd(Threads{.count = 3, .cell = 2});
+    one.run({.steps = 150, .dt = dt});
+    two.run({.steps = 150, .dt = dt});
+    EXPECT_EQ(one.state_hash(), two.state_hash());
+}
+} // namespace
