@@ -85,8 +85,8 @@ void all_pair_terms()
     pair_terms("term/ArtificialViscosity", water(1.2, artificial), m);
     pair_terms("term/DensityDiffusion", water(1.2, diffusion, Gravity<3>{{0, 0, -g}}), m);
     pair_terms("term/LinearSpring", dem<2>({.mass = 0.1, .radius = 0.01}, LinearSpring{.k = 1e5}), 0.1);
-    pair_terms("term/fused: continuity, pressure, laminar", water(1.2, Continuity<2>{}, PressureForce<2>{}, laminar), m);
-    pair_terms("term/fused: dam_break", dam_break_water(), m);
+    pair_terms("term/fused laminar", water(1.2, Continuity<2>{}, PressureForce<2>{}, laminar), m);
+    pair_terms("term/fused dam break", dam_break_water(), m);
 }
 
 template <int Dim>

@@ -34,9 +34,10 @@ public:
         fill(pack_, neighbours * width<V>, width<V>);
     }
     /// On packs that lie side by side, one a field: no list, no transposition.
-    void on_packs()
+    [[gnu::noinline]] void on_packs()
     {
-        sweep([&](auto const& interaction, auto const& all, auto const& ri, auto const& ui, auto& sums, std::size_t) {
+        sweep([&](auto const& interaction, auto const& all, auto const& ri, auto const& ui, auto& sums, std::size_t)
+                  __attribute__((always_inline)) {
             const auto uj = theirs_.template uniforms<V>();
             T const* base = pack_.data();
             for (int k = 0; k < neighbours; ++k, base += L::stride * width<V>) {
@@ -48,10 +49,11 @@ public:
         });
     }
     /// On records that lists point at: the engine's own loop.
-    void on_records()
+    [[gnu::noinline]] void on_records()
     {
         const Folded source{theirs_, {list_}, record_};
-        sweep([&](auto const& interaction, auto const& all, auto const& ri, auto const& ui, auto& sums, std::size_t b) {
+        sweep([&](auto const& interaction, auto const& all, auto const& ri, auto const& ui, auto& sums, std::size_t b)
+                  __attribute__((always_inline)) {
             detail::over<V>(interaction, all, ri, ui, sums, source, 0, b);
         });
     }
@@ -87,13 +89,13 @@ private:
     {
         for_each(U::uniform, [&](auto f) {
             if constexpr (std::same_as<decltype(f), Mass>) to.value(f) = m;
-            else to.value(f) = physics.uniforms[f];
+            else if constexpr (Set<P::uniform>::template contains<decltype(f)>) to.value(f) = physics.uniforms[f];
         });
     }
-    void sweep(auto const& neighbours_of)
+    [[gnu::always_inline]] void sweep(auto const& neighbours_of)
     {
         const I interaction = interaction_; // copies in this frame, as in the engine's sweep
-        const auto all = terms_;
+        const typename M::Terms all = terms_;
         const auto ui = mine_.template uniforms<V>();
         for (int block = 0; block < targets / width<V>; ++block) {
             const auto ri = target_.template record_at<V>(Target{}, block * width<V>);

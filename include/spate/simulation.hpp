@@ -64,7 +64,7 @@ public:
     Simulation(P physics, I integrator, B boundary, Backend backend = {}, Precision = {}, W watch = {},
                Neighbours neighbours = neighbours_for<typename Engine::M::Interaction>())
         : integrator_(integrator), watch_(watch),
-          system_(checked(physics, boundary, backend, neighbours), boundary, backend, neighbours, I::saves),
+          system_(checked(physics, boundary, backend, neighbours, watch), boundary, backend, neighbours, I::saves),
           g_(gravity_of(physics))
     {
         place_markers();
@@ -82,10 +82,15 @@ public:
             const std::string edge = "box length along axis " + std::to_string(c);
             require_positive(edge, box.size()[c], "m");
             const double k = std::round(box.size()[c] / spacing);
-            require(k >= 1, "spacing", spacing, "at most the box length " + text(box.size()[c]) + " m");
+            require(spacing <= box.size()[c] * (1 + 1e-6), "spacing", spacing,
+                    "at most the box length " + text(box.size()[c]) + " m");
             require(k < 1e9, "spacing", spacing, "at least a billionth of the box length");
             n[std::size_t(c)] = std::int32_t(k);
         }
+        constexpr double most = std::numeric_limits<std::int32_t>::max();
+        double particles = 1;
+        for (auto k : n) particles *= k;
+        require(particles <= most, "spacing", spacing, "one that gives at most 2147483647 particles");
         set_mass(spacing);
         auto& p = system_.mobile();
         const std::size_t first = p.size();
@@ -244,11 +249,13 @@ public:
 private:
     static constexpr bool needs_acceleration = has_equation_of_state<P> || I::ahead_acceleration > 0;
 
-    static P const& checked(P const& physics, B const& boundary, Backend const& backend, Neighbours const& n)
+    static P const& checked(P const& physics, B const& boundary, Backend const& backend, Neighbours const& n,
+                            W const& watch)
     {
         physics.check();
         backend.check();
         n.check();
+        watch.check();
         boundary.check(physics.interaction.range() * (1 + n.skin));
         require(backend.cell >= 0 && backend.cell <= 32, "cell", backend.cell, "0 (by dimension), or 1 to 32 ranges");
         return physics;

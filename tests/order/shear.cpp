@@ -18,7 +18,7 @@ double measured(int N, double eps)
     const double k = 2 * std::numbers::pi / N, amplitude = 1e-6;
     const double kappa = lattice::table("kernel_stability_constants.csv", "cubic", 2, h, "Lambda");
     const double dt = 0.1 * 2 * h * h / (kappa * nu); // a tenth of the viscous limit, which is below the acoustic one here
-    const Box<2> box{{}, {{double(N), 6}}};
+    const Box<2> box{{}, {{double(N), 7}}};
     auto fluid = wcsph(CubicSpline<2>{h}, LinearEos{.rho0 = rho0, .c0 = 1}, Continuity<2>{}, PressureForce<2>{},
                        LaminarViscosity{.mu = rho0 * nu, .eps = eps});
     Simulation sim(fluid, RungeKutta2{}, Periodic(box), Serial{}, Double{}, NoWatch{});

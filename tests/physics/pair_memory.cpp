@@ -51,7 +51,7 @@ double push_on(S const& box, std::uint32_t id) // in units
 TEST(PairMemory, CountsEveryEvaluationOfAContactThroughRebuilds)
 {
     auto box = crowd(Serial{});
-    for (int n = 1; n <= 200; ++n) {
+    for (int n = 1; n <= 300; ++n) {
         box.run({.steps = 1, .dt = dt});
         ASSERT_NEAR(push_on(box, 0), -n, 1e-9 * n) << "after step " << n;
         ASSERT_NEAR(push_on(box, 1), n, 1e-9 * n) << "after step " << n;

@@ -20,9 +20,11 @@ inline Outcome outcome(auto& sim, std::int64_t steps)
     return {sim.state_hash(), sim.system().rebuilds()};
 }
 
+inline constexpr Neighbours usual = Smoothing<CubicSpline<2>>::neighbours;
+
 /// A column of water 0.3 m by 0.4 m falls over in a tank of 0.8 m.
 template <class Precision = Double, class W = Watch, class I, class State, class Backend>
-Outcome dam_break(I integrator, State state, Backend backend, Neighbours neighbours = {}, std::int64_t steps = 1500)
+Outcome dam_break(I integrator, State state, Backend backend, Neighbours neighbours = usual, std::int64_t steps = 1500)
 {
     constexpr double dx = 0.02, g = 9.81, height = 0.4;
     const double c0 = 10 * std::sqrt(2 * g * height);
@@ -37,7 +39,7 @@ Outcome dam_break(I integrator, State state, Backend backend, Neighbours neighbo
 
 /// Vortices in a periodic cube.
 template <class W = Watch, class Precision = Double, class Backend>
-Outcome vortices(Backend backend, Neighbours neighbours = {})
+Outcome vortices(Backend backend, Neighbours neighbours = usual)
 {
     constexpr int n = 10;
     const Box<3> box{{}, {{n, n, n}}};
@@ -57,7 +59,7 @@ Outcome vortices(Backend backend, Neighbours neighbours = {})
 
 /// Discs that bounce off each other in a periodic box.
 template <class W = Watch, class Precision = Double, class Backend>
-Outcome discs(Backend backend, Neighbours neighbours = {})
+Outcome discs(Backend backend, Neighbours neighbours = Discs::neighbours)
 {
     constexpr int side = 20;
     constexpr double r = 0.01, pitch = 2.3 * r;

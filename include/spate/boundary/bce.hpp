@@ -33,7 +33,7 @@ public:
             const std::string length = "Bce.box length along axis " + std::to_string(c);
             require_positive(length, box.size()[c], "m");
             const double n = box.size()[c] / spacing;
-            require(n > 0.5, "Bce.spacing", spacing, "at most the box length " + text(box.size()[c]) + " m");
+            require(n > 1 - 1e-6, "Bce.spacing", spacing, "at most the box length " + text(box.size()[c]) + " m");
             require(std::abs(n - std::round(n)) < 1e-6 * n, length, box.size()[c],
                     "a whole number of spacings; the nearest is " + text(std::round(n) * spacing) +
                         " m, or take spacing " + text(box.size()[c] / std::round(n)) + " m");

@@ -51,6 +51,9 @@ public:
             const double length = box.size()[c];
             const std::string axis = "box length along axis " + std::to_string(c);
             require_positive(axis, length, "m");
+            if ((edges.at(c, false) == Edge::periodic) != (edges.at(c, true) == Edge::periodic))
+                throw BadInput("axis " + std::to_string(c), "periodic at one end and open or a wall at the other",
+                               "periodic at both ends or at none");
             if (edges.periodic(c))
                 require(length >= 2 * reach, "periodic " + axis, length,
                         "at least twice the reach of the neighbour lists, " + text(2 * reach) +

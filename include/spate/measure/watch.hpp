@@ -18,9 +18,17 @@ struct Watch {
     int energy_every = 10; ///< steps between two looks at the energy
     double warn = 0.01;    ///< rise of total energy over its reference that is told [-]
     double stop = 0.05;    ///< ... that ends the run [-]
+
+    void check() const
+    {
+        require(energy_every >= 1, "Watch.energy_every", energy_every, "1 or above [steps]");
+        require(warn > 0, "Watch.warn", warn, "a number above 0 [-]");
+        require(stop > 0, "Watch.stop", stop, "a number above 0 [-]");
+    }
 };
 struct NoWatch {
     static constexpr bool on = false;
+    void check() const {}
 };
 
 namespace detail {

@@ -333,7 +333,8 @@ public:
         for (auto const& l : lists_) b += l.bytes();
         return b;
     }
-    /// Sum modulo 2^64 over all particles of a hash of (species, id, bits of the evolving fields).
+    /// Sum modulo 2^64 over all particles of a hash of (species, id, bits of the evolving fields), and over all pairs of
+    /// (ids, bits of what terms keep of them).
     [[nodiscard]] std::uint64_t state_hash() const
     {
         std::uint64_t total = 0;
@@ -350,6 +351,26 @@ public:
                 });
                 total += h;
             }
+        });
+        each_species([&](auto s) {
+            each_species([&](auto q) {
+                if constexpr (kept_values < s(), q() >> 0) {
+                    PairMemory<T, kept_values<s(), q()>> now;
+                    now.take(lists<s(), q()>(), memory_[std::size_t(s() * species_count + q())],
+                             species<s()>().particles, species<s()>().bins, species<q()>().particles,
+                             species<q()>().bins, width<V>);
+                    for (auto const& pair : now.pairs()) {
+                        std::uint64_t h =
+                            mix(mix(mix(std::uint64_t(s() * species_count + q()) + 17) + pair.i) + pair.j);
+                        for (T value : pair.value) {
+                            std::uint64_t bits = 0;
+                            std::memcpy(&bits, &value, sizeof(T));
+                            h = mix(h ^ bits);
+                        }
+                        total += h;
+                    }
+                }
+            });
         });
         return total;
     }

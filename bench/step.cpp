@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What whole steps cost, and how far they are from the arithmetic: the figures to reach. The developed flow is computed by
+// the first run (about two minutes) and kept in build/bench.
+#include "support/developed.hpp"
+#include "support/from_l1.hpp"
+
+using namespace bench;
+
+namespace {
+
+template <class Precision>
+auto developed_dam(int threads)
+{
+    auto dam = big_dam(threads, Precision{});
+    Developed::flow().put_into(dam);
+    return dam;
+}
+
+/// Full steps from t = 0.30 to 0.32 s, rebuilds and all else counted.
+template <class Precision>
+void dam_break_big(benchmark::State& state)
+{
+    const int threads = int(state.range(0));
+    Developed::flow();
+    Cost cost;
+    for (auto _ : state) run_on(cost, [&] { return developed_dam<Precision>(threads); }, like_dam_break, window);
+    cost.say(state, threads);
+    state.counters["markers"] = cost.markers;
+    if (threads == 1) {
+        auto dam = developed_dam<Precision>(1);
+        dam.step(like_dam_break);
+        state.counters["bytes_a_marker"] = double(dam.system().bytes()) / cost.markers;
+        state.counters["slots_pair"] = slots(dam.system()) / double(dam.system().pairs());
+    }
+}
+BENCHMARK(dam_break_big<Double>)->ArgName("threads")->Arg(1)->Arg(2)->Iterations(3)->Unit(benchmark::kSecond);
+BENCHMARK(dam_break_big<Float>)->ArgName("threads")->Arg(1)->Iterations(2)->Unit(benchmark::kSecond);
+
+/// Sweeps of the developed flow in double and in float, turn by turn with the same terms on packs and records from L1.
+void sweep(benchmark::State& state)
+{
+    auto one = developed_dam<Double>(1);
+    auto other = developed_dam<Float>(1);
+    one.step(like_dam_break), other.step(like_dam_break);
+    auto& s = one.system();
+    SweepsOf in_double(s);
+    SweepsOf in_float(other.system());
+    using P = std::remove_cvref_t<decltype(one.physics())>;
+    using B = std::remove_cvref_t<decltype(s.boundary())>;
+    const double m = one.particles().value(mass);
+    FromL1<P, B, Double, 0, 0> fluid_fluid(one.physics(), s.boundary(), m);
+    FromL1<P, B, Double, 0, 1> fluid_wall(one.physics(), s.boundary(), m);
+    FromL1<P, B, Double, 1, 0> wall_fluid(one.physics(), s.boundary(), m);
+    Least d, f, packs[3], records[3];
+    auto turn = [&](int k, auto& l1) {
+        packs[k].of([&] {
+            for (int n = 0; n < 20; ++n) l1.on_packs();
+        });
+        records[k].of([&] {
+            for (int n = 0; n < 20; ++n) l1.on_records();
+        });
+    };
+    for (auto _ : state) {
+        d.of([&] { in_double.run(); });
+        f.of([&] { in_float.run(); });
+        turn(0, fluid_fluid), turn(1, fluid_wall), turn(2, wall_fluid);
+    }
+    const double pairs = double(s.pairs());
+    const double share[3] = {double(s.lists<0, 0>().pairs()) / pairs, double(s.lists<0, 1>().pairs()) / pairs,
+                             double(s.lists<1, 0>().pairs()) / pairs};
+    double on_packs = 0, on_records = 0;
+    for (int k = 0; k < 3; ++k) {
+        on_packs += share[k] * packs[k].ns(20 * fluid_fluid.pairs);
+        on_records += share[k] * records[k].ns(20 * fluid_fluid.pairs);
+    }
+    auto& c = state.counters;
+    c["double_ns_pair"] = d.ns(pairs);
+    c["float_ns_pair"] = f.ns(double(other.system().pairs()));
+    c["float_over_double"] = c["float_ns_pair"] / c["double_ns_pair"];
+    c["packs_ns_pair"] = on_packs;
+    c["records_ns_pair"] = on_records;
+    c["over_packs"] = d.ns(pairs) / on_packs;
+    c["over_records"] = d.ns(pairs) / on_records;
+    c["slots_pair"] = slots(s) / pairs;
+}
+BENCHMARK(sweep)->Iterations(25)->Unit(benchmark::kMillisecond);
+
+/// 262,144 discs at an area fraction of 0.8, mixed by 600 steps, then 300 steps by symplectic Euler.
+void dense_discs(benchmark::State& state)
+{
+    const int threads = int(state.range(0));
+    auto mixed = [&] {
+        auto box = discs(512, 0.8, threads, {.skin = 0.3, .finer = 1, .window = 16});
+        for (int k = 0; k < 600; ++k) box.step({.dt = 1e-4});
+        return box;
+    };
+    Cost cost;
+    for (auto _ : state) run_on(cost, mixed, {.dt = 1e-4}, 300 * 1e-4);
+    cost.say(state, threads);
+}
+BENCHMARK(dense_discs)->ArgName("threads")->Arg(1)->Arg(2)->Iterations(3)->Unit(benchmark::kSecond);
+
+} // namespace
