@@ -23,8 +23,9 @@ double evaluations_of_a_list(double skin)
 void cell_size(benchmark::State& state)
 {
     const double skin = 1e-3 * double(state.range(2)), h = 0.1 * double(state.range(3));
-    auto sim = block(n, water(h, Continuity<2>{}, DensityDiffusion{.delta = 0.1}, PressureForce<2>{},
-                              ArtificialViscosity{.alpha = 0.1}, Gravity<3>{{0, 0, -g}}),
+    auto sim = block(n,
+                     water(h, Continuity<2>{}, DensityDiffusion{.delta = 0.1}, PressureForce<2>{},
+                           ArtificialViscosity{.alpha = 0.1}, Gravity<3>{{0, 0, -g}}),
                      RungeKutta2{}, Double{}, {.skin = skin, .finer = int(state.range(1))}, int(state.range(0)));
     auto& s = sim.system();
     SweepsOf sweeps(s);

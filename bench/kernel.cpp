@@ -146,7 +146,9 @@ void stage(benchmark::State& state, std::string const& name)
 void stages()
 {
     for (std::string name : {"sort", "list build", "rebuild", "equation of state", "pack", "sweep", "all rates"})
-        benchmark::RegisterBenchmark(("stage/" + name).c_str(), [=](benchmark::State& s) { stage(s, name); })->MinTime(0.4);
+        benchmark::RegisterBenchmark(("stage/" + name).c_str(), [=](benchmark::State& s) {
+            stage(s, name);
+        })->MinTime(0.4);
     benchmark::RegisterBenchmark("selection/2D", selection<2>)->MinTime(0.1);
     benchmark::RegisterBenchmark("selection/3D", selection<3>)->MinTime(0.1);
 }

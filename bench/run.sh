@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds one benchmark, runs it, keeps its figures as build/bench/NAME.json and draws its plot if it has one.
+# Builds one benchmark, runs it, keeps its figures as build/bench/NAME.json, prints its table and draws its plot.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -7,13 +7,14 @@ names=()
 for file in bench/*.cpp; do
     [[ ! -f $file ]] || names+=("$(basename "$file" .cpp)")
 done
+names+=(compile_time)
 usage()
 {
     cat <<END
 usage: bash bench/run.sh NAME [options of Google Benchmark]
 
-NAME is one of: ${names[*]-}
-Writes build/bench/NAME.json.
+NAME is one of: ${names[*]}
+Writes build/bench/NAME.json, and its plot beside it where there is one. What each measures: bench/README.md.
 END
 }
 
@@ -23,20 +24,33 @@ case ${1-} in
 esac
 name=$1
 shift
-[[ " ${names[*]-} " == *" $name "* ]] || {
-    echo "run.sh: there is no benchmark $name; choose one of: ${names[*]-}" >&2
+[[ " ${names[*]} " == *" $name "* ]] || {
+    echo "run.sh: there is no benchmark $name; choose one of: ${names[*]}" >&2
     exit 2
 }
 
 bash tools/setup.sh --with bench
+if [[ $name == compile_time ]]; then
+    bash tools/setup.sh --with examples --with clang
+    exec bash bench/compile_time.sh "$@"
+fi
 cmake --preset bench > /dev/null
 cmake --build --preset bench --target "bench_$name"
-export OMP_WAIT_POLICY=${OMP_WAIT_POLICY-passive}
+export OMP_WAIT_POLICY=${OMP_WAIT_POLICY-passive} # libgomp's spinning barriers cost milliseconds on a busy core
 json=build/bench/$name.json
-"$(find build/bench -name "bench_$name" -type f -perm -u+x | head -n 1)" \
-    --benchmark_out="$json" --benchmark_out_format=json "$@"
+executable=$(find build/bench -name "bench_$name" -type f -perm -u+x | head -n 1)
+
+# What a figure is worth without: the machine, the compiler, the commit.
+cpu=$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo 2> /dev/null | head -n 1 | tr ',=' '  ') || cpu=
+compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' build/bench/CMakeCache.txt | head -n 1)
+compiler="$(basename "$compiler") $("$compiler" -dumpfullversion 2> /dev/null || "$compiler" -dumpversion)"
+commit=$(git describe --always --dirty=+ 2> /dev/null) || commit=unknown
+echo "run.sh: running $executable" >&2
+"$executable" --benchmark_context="cpu=${cpu:-unknown},compiler=$compiler,commit=$commit" \
+    --benchmark_counters_tabular=true --benchmark_out="$json" --benchmark_out_format=json "$@" > "build/bench/$name.log"
 sed -i '/"host_name"/d' "$json"
 echo "figures: $json"
-if [[ -f bench/plot.py ]]; then
-    /usr/bin/python3 bench/plot.py "$name"
+if [[ $name == term_deleted ]]; then
+    /usr/bin/python3 bench/instructions.py "$executable" > build/bench/instructions.txt
 fi
+/usr/bin/python3 bench/plot.py "$name"

@@ -23,7 +23,9 @@ void dam_break_big(benchmark::State& state)
     const int threads = int(state.range(0));
     Developed::flow();
     Cost cost;
-    for (auto _ : state) run_on(cost, [&] { return developed_dam<Precision>(threads); }, like_dam_break, window);
+    for (auto _ : state)
+        run_on(
+            cost, [&] { return developed_dam<Precision>(threads); }, like_dam_break, window);
     cost.say(state, threads);
     state.counters["markers"] = cost.markers;
     if (threads == 1) {

@@ -41,13 +41,15 @@ private:
     Developed()
     {
         const auto folder = std::filesystem::path("build/bench");
-        const auto file = (std::filesystem::is_directory(folder) ? folder : ".") / std::filesystem::path("dam_break_big_0.30.bin");
+        const auto file =
+            (std::filesystem::is_directory(folder) ? folder : ".") / std::filesystem::path("dam_break_big_0.30.bin");
         auto dam = big_dam(0);
         auto& p = dam.particles();
         data_.resize(7 * p.size());
         const auto bytes = std::streamsize(data_.size() * sizeof(double));
         std::ifstream in(file, std::ios::binary);
-        if (in.read(reinterpret_cast<char*>(data_.data()), bytes) && in.peek() == std::ifstream::traits_type::eof()) return;
+        if (in.read(reinterpret_cast<char*>(data_.data()), bytes) && in.peek() == std::ifstream::traits_type::eof())
+            return;
         dam.run({.until = developed, .cfl = like_dam_break.cfl});
         for (std::size_t i = 0; i < p.size(); ++i) {
             const auto x = p.at(position, i), v = p.at(velocity, i);

@@ -38,24 +38,22 @@ public:
     {
         sweep([&](auto const& interaction, auto const& all, auto const& ri, auto const& ui, auto& sums, std::size_t)
                   __attribute__((always_inline)) {
-            const auto uj = theirs_.template uniforms<V>();
-            T const* base = pack_.data();
-            for (int k = 0; k < neighbours; ++k, base += L::stride * width<V>) {
-                const auto rj = lying(base, Records{});
-                const auto ij = detail::pair_of<I, V>(interaction, ri, ui, rj, uj);
-                detail::apply_all<terms>(all, ri, ui, rj, uj, sums, ij,
-                                         std::make_index_sequence<std::size_t(M::terms)>{});
-            }
-        });
+                      const auto uj = theirs_.template uniforms<V>();
+                      T const* base = pack_.data();
+                      for (int k = 0; k < neighbours; ++k, base += L::stride * width<V>) {
+                          const auto rj = lying(base, Records{});
+                          const auto ij = detail::pair_of<I, V>(interaction, ri, ui, rj, uj);
+                          detail::apply_all<terms>(all, ri, ui, rj, uj, sums, ij,
+                                                   std::make_index_sequence<std::size_t(M::terms)>{});
+                      }
+                  });
     }
     /// On records that lists point at: the engine's own loop.
     [[gnu::noinline]] void on_records()
     {
         const Folded source{theirs_, {list_}, record_};
         sweep([&](auto const& interaction, auto const& all, auto const& ri, auto const& ui, auto& sums, std::size_t b)
-                  __attribute__((always_inline)) {
-            detail::over<V>(interaction, all, ri, ui, sums, source, 0, b);
-        });
+                  __attribute__((always_inline)) { detail::over<V>(interaction, all, ri, ui, sums, source, 0, b); });
     }
 
 private:

@@ -13,8 +13,8 @@ namespace bench {
 
 using namespace spate;
 
-constexpr double dx = 0.01;             ///< spacing of the particles of all water [m]
-constexpr double g = 9.81;              ///< [m/s^2]
+constexpr double dx = 0.01;                    ///< spacing of the particles of all water [m]
+constexpr double g = 9.81;                     ///< [m/s^2]
 const double c0 = 10 * std::sqrt(2 * g * 0.4); ///< of the dam break "big" [m/s]
 
 /// Water with the terms of the scene dam_break, or with others.
@@ -42,7 +42,8 @@ private:
 /// A cube of n^3 particles in open space, jittered by a fifth of the spacing, with speeds and densities at random, and
 /// its lists and rates made once.
 template <class P, class I = RungeKutta2, class Precision = Double>
-auto block(int n, P const& physics, I integrator = {}, Precision precision = {}, Neighbours neighbours = {}, int cell = 0)
+auto block(int n, P const& physics, I integrator = {}, Precision precision = {}, Neighbours neighbours = {},
+           int cell = 0)
 {
     Simulation s(physics, integrator, Open{}, Serial{.cell = cell}, precision, Watch{}, neighbours);
     Dice dice;

@@ -59,7 +59,8 @@ private:
             constexpr int s = st.species;
             constexpr Mask from_0 = st.terms & Sweeps<M>::terms(s, 0);
             constexpr Mask from_1 = System::species_count == 2 ? st.terms & Sweeps<M>::terms(s, 1) : 0;
-            if constexpr (from_0 != 0 && from_1 != 0) cells<s, st.terms>(source<s, 0, from_0>(), source<s, 1, from_1>());
+            if constexpr (from_0 != 0 && from_1 != 0)
+                cells<s, st.terms>(source<s, 0, from_0>(), source<s, 1, from_1>());
             else if constexpr (from_0 != 0) cells<s, st.terms>(source<s, 0, from_0>());
             else cells<s, st.terms>(source<s, 1, from_1>());
         }
@@ -79,7 +80,8 @@ private:
         using Sums = decltype(M::template fields<Sweeps<M>::added(terms)>());
         using Target = decltype(M::template fields<Sweeps<M>::read_of_target(terms, s)>());
         for (std::size_t cell = 0; cell < x.bins.cells(); ++cell)
-            sweep_cell<V, terms, Sums, Target>(s_.physics().interaction, s_.terms(), x.particles, x.bins, cell, source...);
+            sweep_cell<V, terms, Sums, Target>(s_.physics().interaction, s_.terms(), x.particles, x.bins, cell,
+                                               source...);
     }
 
     System& s_;
@@ -93,8 +95,9 @@ void build_lists(System const& s, Lists<System::dim>& lists)
     using P = std::remove_cvref_t<decltype(x.particles)>;
     constexpr int record = std::remove_cvref_t<decltype(x.packed)>::L::stride;
     const double range = s.physics().interaction.range(), reach = range * (1 + s.neighbours().skin);
-    Lists<System::dim>::build(x.particles, x.bins, s.grid(), width<typename System::V>, s.neighbours().window, reach, range,
-                              s.backend(), typename Lists<System::dim>::template From<P>{lists, x.particles, x.bins, record, true});
+    Lists<System::dim>::build(x.particles, x.bins, s.grid(), width<typename System::V>, s.neighbours().window, reach,
+                              range, s.backend(),
+                              typename Lists<System::dim>::template From<P>{lists, x.particles, x.bins, record, true});
 }
 
 /// Entries of all lists, sentinels too.

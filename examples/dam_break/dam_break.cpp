@@ -34,4 +34,4 @@ int main(int argc, char** argv)
                     Probe{"p_wall", pressure, c.at(L, 0)}, Gauge{"depth_left", c.at(0, 0), dx});
     });
 }
-// At 0.3 s the front has come to 0.89 m (Martin & Moyce: 0.87 m); at 0.73 s it strikes the wall. Energy does not rise.
+// At 0.3 s the front has come to 0.89 m (Martin & Moyce: 0.87 m); it strikes the wall at 0.73 s.

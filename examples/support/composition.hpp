@@ -46,11 +46,12 @@ inline constexpr char const* wall_text = SPATE_TEXT(SPATE_WALL);
 inline constexpr double smoothing = std::same_as<Kernel, spate::WendlandC2<dim>> ? (dim == 3 ? 1.5 : 2.0) : 1.2;
 
 /// The backend with the numbers of the command line.
-inline Backend backend(int threads, int cell)
+template <class B = Backend>
+B backend(int threads, int cell)
 {
-    if constexpr (requires { Backend{.count = threads, .cell = cell}; }) return {.count = threads, .cell = cell};
+    if constexpr (requires(B b) { b.count; }) return {.count = threads, .cell = cell};
     else {
-        spate::require(threads <= 1, "threads", threads, "1 with this backend");
+        spate::require(threads == 0 || threads == 1, "threads", threads, "0 or 1 with this backend");
         return {.cell = cell};
     }
 }

@@ -42,8 +42,7 @@ std::vector<Pair> pairs_of(auto const& sim)
 {
     auto const& p = sim.particles();
     std::vector<double> x(p.size()), v(p.size());
-    for (std::size_t i = 0; i < p.size(); ++i)
-        x[p.id()[i]] = p.at(position, i)[0], v[p.id()[i]] = p.at(velocity, i)[0];
+    for (std::size_t i = 0; i < p.size(); ++i) x[p.id()[i]] = p.at(position, i)[0], v[p.id()[i]] = p.at(velocity, i)[0];
     std::vector<Pair> all;
     for (std::size_t n = 0; n < x.size(); n += 2) all.push_back({2 * r - (x[n + 1] - x[n]), v[n] - v[n + 1]});
     return all;
@@ -150,7 +149,8 @@ TEST(Contact, ABoxOfDiscsKeepsEnergyAndMomentum)
     std::mt19937 random(3);
     for (int n = 0; n < side * rows; ++n) {
         const double angle = 2 * std::numbers::pi * double(random()) / 4294967296.0;
-        sim.add({{(n % side + 0.5) * pitch, (n / side + 0.5) * pitch}}, {{0.5 * std::cos(angle), 0.5 * std::sin(angle)}});
+        sim.add({{(n % side + 0.5) * pitch, (n / side + 0.5) * pitch}},
+                {{0.5 * std::cos(angle), 0.5 * std::sin(angle)}});
     }
     auto momentum = [&] {
         Vec<2, double> sum{};

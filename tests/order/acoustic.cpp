@@ -104,7 +104,8 @@ bool bounded(double step)
     for (int k = 0; k < 10 && fastest < 1e-3; ++k) {
         sim.run({.steps = 40, .dt = step});
         fastest = 0;
-        for (std::size_t i = 0; i < p.size(); ++i) fastest = std::max(fastest, std::sqrt(p.at(velocity, i).squaredNorm()));
+        for (std::size_t i = 0; i < p.size(); ++i)
+            fastest = std::max(fastest, std::sqrt(p.at(velocity, i).squaredNorm()));
     }
     return fastest < 1e-6;
 }

@@ -17,7 +17,8 @@ double measured(int N, double eps)
 {
     const double k = 2 * std::numbers::pi / N, amplitude = 1e-6;
     const double kappa = lattice::table("kernel_stability_constants.csv", "cubic", 2, h, "Lambda");
-    const double dt = 0.1 * 2 * h * h / (kappa * nu); // a tenth of the viscous limit, which is below the acoustic one here
+    const double dt =
+        0.1 * 2 * h * h / (kappa * nu); // a tenth of the viscous limit, which is below the acoustic one here
     const Box<2> box{{}, {{double(N), 7}}};
     auto fluid = wcsph(CubicSpline<2>{h}, LinearEos{.rho0 = rho0, .c0 = 1}, Continuity<2>{}, PressureForce<2>{},
                        LaminarViscosity{.mu = rho0 * nu, .eps = eps});
@@ -59,7 +60,8 @@ TEST_P(Shear, DecaysAtTheRateOfTheLattice)
     EXPECT_NEAR(rate / (1 + lattice::table("kernel_lattice_constants.csv", "cubic", 2, h, column)), 1, 1e-6);
 }
 INSTANTIATE_TEST_SUITE_P(Wavelengths, Shear,
-                         testing::Values(Case{16, 0.01, "nueff_rel_N16_eps0.01"}, Case{64, 0.01, "nueff_rel_N64_eps0.01"},
-                                         Case{64, 0, "nueff_rel_N64_eps0"}, Case{16, 0, nullptr}));
+                         testing::Values(Case{16, 0.01, "nueff_rel_N16_eps0.01"},
+                                         Case{64, 0.01, "nueff_rel_N64_eps0.01"}, Case{64, 0, "nueff_rel_N64_eps0"},
+                                         Case{16, 0, nullptr}));
 
 } // namespace

@@ -14,16 +14,13 @@ namespace wave {
 
 using namespace spate;
 
-constexpr int N = 32;          // points of a wavelength
-constexpr double eps = 1e-6;   // speed amplitude over c0
+constexpr int N = 32;        // points of a wavelength
+constexpr double eps = 1e-6; // speed amplitude over c0
 constexpr double rho0 = 1000;
 constexpr double k0 = 2 * std::numbers::pi / N;
 
 /// Rows across the wave: about the shortest periodic box that neighbour lists with a skin of 1/4 allow.
-inline int rows(double h)
-{
-    return int(std::ceil(2 * 2 * h * 1.25));
-}
+inline int rows(double h) { return int(std::ceil(2 * 2 * h * 1.25)); }
 
 /// A fluid at rest on the lattice without viscosity, moving as v = eps c0 khat sin(k . x) at first.
 /// \tparam Axes  1: k along x; 2: along the diagonal of x and y
@@ -97,7 +94,8 @@ inline Oscillation fitted(std::vector<double> const& y)
         Eigen::MatrixXd J(n, 4);
         Eigen::VectorXd error(n);
         for (Eigen::Index t = 0; t < n; ++t) {
-            const double e = std::exp(s[3] * double(t)), c = e * std::cos(s[2] * double(t)), d = e * std::sin(s[2] * double(t));
+            const double e = std::exp(s[3] * double(t)), c = e * std::cos(s[2] * double(t)),
+                         d = e * std::sin(s[2] * double(t));
             const double value = s[0] * c + s[1] * d;
             error[t] = all[t] - value;
             J.row(t) << c, d, double(t) * (s[1] * c - s[0] * d), double(t) * value;

@@ -34,9 +34,9 @@ struct Tank {
 };
 void run(Tank const& t)
 {
-    auto water = wcsph(CubicSpline<2>{t.h}, Tait{t.rho0, t.c0}, Continuity<2>{}, DensityDiffusion{t.delta},
-                       PressureForce<2>{}, ArtificialViscosity{.alpha = t.alpha},
-                       LaminarViscosity{t.mu, t.laminar_eps}, Gravity<2>{t.g});
+    auto water =
+        wcsph(CubicSpline<2>{t.h}, Tait{t.rho0, t.c0}, Continuity<2>{}, DensityDiffusion{t.delta}, PressureForce<2>{},
+              ArtificialViscosity{.alpha = t.alpha}, LaminarViscosity{t.mu, t.laminar_eps}, Gravity<2>{t.g});
     Bce walls(t.walls, t.spacing, Adami{}, open(top));
     Simulation sim(water, SymplecticEuler{}, walls, t.backend, Double{}, t.watch, t.neighbours);
     sim.fill(t.water, t.fill_spacing);
@@ -138,20 +138,25 @@ TEST(BadInput, OfTheWalls)
 {
     std::vector<Case> cases;
     for (auto [x, text] : {std::pair{0.0, "0"}, {-0.4, "-0.4"}, {nan_value, "nan"}, {infinite, "inf"}}) {
-        cases.push_back(tank("Bce.box length along axis 1", text, positive + "m]", [x = x](Tank& t) { t.walls.hi[1] = x; }));
+        cases.push_back(
+            tank("Bce.box length along axis 1", text, positive + "m]", [x = x](Tank& t) { t.walls.hi[1] = x; }));
         cases.push_back(tank("Bce.spacing", text, positive + "m]", [x = x](Tank& t) { t.spacing = x; }));
     }
     cases.push_back(tank("Bce.spacing", "0.9", "at most the box length 0.4 m", [](Tank& t) { t.spacing = 0.9; }));
     cases.push_back(tank("Bce.spacing", "0.5", "at most the box length 0.4 m", [](Tank& t) { t.spacing = 0.5; }));
-    cases.push_back(tank("Bce.box length along axis 0", "0.41", "a whole number of spacings; the nearest is 0.42 m",
-                         [](Tank& t) { t.walls.hi[0] = 0.41000001, t.walls.hi[0] = 0.41; t.spacing = 0.021; }));
+    cases.push_back(
+        tank("Bce.box length along axis 0", "0.41", "a whole number of spacings; the nearest is 0.42 m", [](Tank& t) {
+            t.walls.hi[0] = 0.41000001, t.walls.hi[0] = 0.41;
+            t.spacing = 0.021;
+        }));
     expect_sentences(cases);
 }
 TEST(BadInput, OfAFill)
 {
     std::vector<Case> cases;
     for (auto [x, text] : {std::pair{0.0, "0"}, {-0.2, "-0.2"}, {nan_value, "nan"}, {infinite, "inf"}}) {
-        cases.push_back(tank("box length along axis 0", text, positive + "m]", [x = x](Tank& t) { t.water.hi[0] = x; }));
+        cases.push_back(
+            tank("box length along axis 0", text, positive + "m]", [x = x](Tank& t) { t.water.hi[0] = x; }));
         cases.push_back(tank("spacing", text, positive + "m]", [x = x](Tank& t) { t.fill_spacing = x; }));
     }
     cases.push_back(tank("spacing", "0.5", "at most the box length 0.2 m", [](Tank& t) { t.fill_spacing = 0.5; }));
@@ -206,13 +211,18 @@ TEST(BadInput, OfTheMachinery)
 TEST(BadInput, OfAPeriodicSpace)
 {
     expect_sentences({
-        grains("periodic box length along axis 1", "0.03",
-               "at least twice the reach of the neighbour lists, 0.0", [](Grains& s) { s.box.hi[1] = 0.03; }),
+        grains("periodic box length along axis 1", "0.03", "at least twice the reach of the neighbour lists, 0.0",
+               [](Grains& s) { s.box.hi[1] = 0.03; }),
         grains("box length along axis 0", "0", positive + "m]", [](Grains& s) { s.box.hi[0] = 0; }),
         grains("box length along axis 0", "nan", positive + "m]", [](Grains& s) { s.box.lo[0] = nan_value; }),
-        {"face", "axis 2", "an axis of the space", [] { Periodic(Box<2>{{}, {{1, 1}}}, open(Face{2, true})); }},
+        {"face", "axis 2", "an axis of the space",
+         [] {
+             Periodic(Box<2>{{}, {{1, 1}}}, open(Face{2, true}));
+         }},
         {"axis 0", "periodic at one end and open or a wall at the other", "periodic at both ends or at none",
-         [] { Bce(Box<2>{{}, {{1, 1}}}, 0.1, Adami{}, periodic(x_axis), open(left)).check(0.1); }},
+         [] {
+             Bce(Box<2>{{}, {{1, 1}}}, 0.1, Adami{}, periodic(x_axis), open(left)).check(0.1);
+         }},
     });
 }
 // A mass that nobody has set would be 0, and a fluid without mass does nothing.

@@ -8,10 +8,7 @@ namespace {
 
 using namespace scenes;
 
-auto dam(auto backend, Neighbours n = usual)
-{
-    return dam_break(RungeKutta2{}, Adami{}, backend, n);
-}
+auto dam(auto backend, Neighbours n = usual) { return dam_break(RungeKutta2{}, Adami{}, backend, n); }
 Outcome const& reference()
 {
     static const Outcome r = dam(Serial{});
@@ -75,8 +72,8 @@ TEST(Bits, ChangeWithTheOrderOfNeighbours)
 }
 TEST(Bits, ChangeWithTheLastBitOfOneParticle)
 {
-    Simulation sim(dem<2>({.mass = 1, .radius = 1}, LinearSpring{.k = 1}), SymplecticEuler{}, Open{}, Serial{}, Double{},
-                   NoWatch{});
+    Simulation sim(dem<2>({.mass = 1, .radius = 1}, LinearSpring{.k = 1}), SymplecticEuler{}, Open{}, Serial{},
+                   Double{}, NoWatch{});
     for (int k = 0; k < 10; ++k) sim.add({{3.0 * k, 1}}, {{0, 1}});
     const auto before = sim.state_hash();
     auto& y = sim.particles().column(position)[1][7];

@@ -17,8 +17,10 @@ void same_bits(Neighbours const& usual_here, std::function<Outcome(Threads, Neig
 {
     const Outcome reference = plain(usual_here);
     EXPECT_GE(reference.rebuilds, 20);
-    for (int threads : {1, 2, 3, 7}) EXPECT_EQ(threaded({threads, 0}, usual_here).hash, reference.hash) << threads << " threads";
-    for (int cell : {1, 2, 4, 8, 16}) EXPECT_EQ(threaded({2, cell}, usual_here).hash, reference.hash) << "cell " << cell;
+    for (int threads : {1, 2, 3, 7})
+        EXPECT_EQ(threaded({threads, 0}, usual_here).hash, reference.hash) << threads << " threads";
+    for (int cell : {1, 2, 4, 8, 16})
+        EXPECT_EQ(threaded({2, cell}, usual_here).hash, reference.hash) << "cell " << cell;
     const auto thin = plain({.skin = 0.1, .bins = 1.4, .trigger = 0.08});
     const auto thick = threaded({2, 0}, {.skin = 0.4, .bins = 1.4, .trigger = 0.08});
     EXPECT_EQ(thin.hash, thick.hash);
@@ -27,18 +29,27 @@ void same_bits(Neighbours const& usual_here, std::function<Outcome(Threads, Neig
 
 TEST(Bits, OfWallsByContinuity)
 {
-    same_bits(usual, [](Threads t, Neighbours n) { return dam_break(Leapfrog{}, ByContinuity{}, t, n); },
-              [](Neighbours n) { return dam_break<ScalarOf<Double>, NoWatch>(Leapfrog{}, ByContinuity{}, Serial{}, n); });
+    same_bits(
+        usual, [](Threads t, Neighbours n) { return dam_break(Leapfrog{}, ByContinuity{}, t, n); },
+        [](Neighbours n) { return dam_break<ScalarOf<Double>, NoWatch>(Leapfrog{}, ByContinuity{}, Serial{}, n); });
 }
 TEST(Bits, OfAPeriodicSpace)
 {
-    same_bits(usual, [](Threads t, Neighbours n) { return vortices(t, n); },
-              [](Neighbours n) { return vortices<NoWatch, ScalarOf<Double>>(Serial{}, n); });
+    same_bits(
+        usual, [](Threads t, Neighbours n) { return vortices(t, n); },
+        [](Neighbours n) { return vortices<NoWatch, ScalarOf<Double>>(Serial{}, n); });
+}
+TEST(Bits, DoNotDependOnHowARunIsCut)
+{
+    const auto whole = vortices(Threads{1, 0});
+    for (int piece : {1, 7, 60})
+        EXPECT_EQ(vortices(Threads{1, 0}, usual, piece).hash, whole.hash) << "pieces of " << piece;
 }
 TEST(Bits, OfGrains)
 {
-    same_bits(Discs::neighbours, [](Threads t, Neighbours n) { return discs(t, n); },
-              [](Neighbours n) { return discs<NoWatch, ScalarOf<Double>>(Serial{}, n); });
+    same_bits(
+        Discs::neighbours, [](Threads t, Neighbours n) { return discs(t, n); },
+        [](Neighbours n) { return discs<NoWatch, ScalarOf<Double>>(Serial{}, n); });
 }
 
 } // namespace

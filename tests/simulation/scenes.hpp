@@ -14,9 +14,10 @@ struct Outcome {
     std::uint64_t hash = 0;
     std::int64_t rebuilds = 0;
 };
-inline Outcome outcome(auto& sim, std::int64_t steps)
+/// \param piece  steps of one call of run
+inline Outcome outcome(auto& sim, std::int64_t steps, std::int64_t piece = 1 << 30)
 {
-    sim.run({.steps = steps, .cfl = 0.2});
+    while (sim.steps() < steps) sim.run({.steps = std::min(piece, steps - sim.steps()), .cfl = 0.2});
     return {sim.state_hash(), sim.system().rebuilds()};
 }
 
@@ -39,11 +40,11 @@ Outcome dam_break(I integrator, State state, Backend backend, Neighbours neighbo
 
 /// Vortices in a periodic cube.
 template <class W = Watch, class Precision = Double, class Backend>
-Outcome vortices(Backend backend, Neighbours neighbours = usual)
+Outcome vortices(Backend backend, Neighbours neighbours = usual, std::int64_t piece = 1 << 30)
 {
     constexpr int n = 10;
     const Box<3> box{{}, {{n, n, n}}};
-    auto fluid = wcsph(CubicSpline<3>{.h = 1.2}, LinearEos{.rho0 = 1, .c0 = 5}, Continuity<1>{}, PressureForce<1>{},
+    auto fluid = wcsph(CubicSpline<3>{.h = 1.2}, LinearEos{.rho0 = 1, .c0 = 15}, Continuity<1>{}, PressureForce<1>{},
                        LaminarViscosity{.mu = 0.05});
     Simulation sim(fluid, Leapfrog{}, Periodic(box), backend, Precision{}, W{}, neighbours);
     sim.fill(box, 1, [&](auto& p, std::size_t i) {
@@ -54,7 +55,7 @@ Outcome vortices(Backend backend, Neighbours neighbours = usual)
         };
         p.put(velocity, i, {{wave(x[1]), wave(x[2]), wave(x[0])}});
     });
-    return outcome(sim, 200);
+    return outcome(sim, 200, piece);
 }
 
 /// Discs that bounce off each other in a periodic box.
@@ -64,8 +65,8 @@ Outcome discs(Backend backend, Neighbours neighbours = Discs::neighbours)
     constexpr int side = 20;
     constexpr double r = 0.01, pitch = 2.3 * r;
     const Box<2> box{{}, {{side * pitch, side * pitch}}};
-    Simulation sim(dem<2>({.mass = 0.1, .radius = r}, LinearSpring{.k = 1e5}), SymplecticEuler{}, Periodic(box), backend,
-                   Precision{}, W{}, neighbours);
+    Simulation sim(dem<2>({.mass = 0.1, .radius = r}, LinearSpring{.k = 1e5}), SymplecticEuler{}, Periodic(box),
+                   backend, Precision{}, W{}, neighbours);
     std::mt19937 random(3);
     auto uniform = [&] { return double(random()) / 2147483648.0 - 1; };
     for (int n = 0; n < side * side; ++n)

@@ -12,6 +12,7 @@
 namespace {
 
 using namespace spate;
+using testing::Contains;
 using testing::HasSubstr;
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
@@ -90,15 +91,17 @@ TEST(Watch, NamesTheParticleThatIsNotFinite)
                 if (field == "density") p.column(density)[0][i] = bad;
             }
             Ear ear;
-            expect_stop<NonFinite>("NonFinite", [&] { sim.run({.steps = 5}, ear); }, [&](Stop const& stop) {
-                EXPECT_EQ(stop.facts().particle, 42); // the least id, whichever is stored first
-                EXPECT_EQ(stop.facts().species, 0);
-                EXPECT_EQ(stop.facts().step, 3);
-                EXPECT_EQ(stop.facts().time, sim.time());
-                EXPECT_EQ(stop.facts().quantity, field) << bad;
-                EXPECT_THAT(stop.what(), HasSubstr("particle 42 of species 0 at ("));
-                EXPECT_THAT(stop.what(), HasSubstr(field + " is "));
-            });
+            expect_stop<NonFinite>(
+                "NonFinite", [&] { sim.run({.steps = 5}, ear); },
+                [&](Stop const& stop) {
+                    EXPECT_EQ(stop.facts().particle, 42); // the least id, whichever is stored first
+                    EXPECT_EQ(stop.facts().species, 0);
+                    EXPECT_EQ(stop.facts().step, 3);
+                    EXPECT_EQ(stop.facts().time, sim.time());
+                    EXPECT_EQ(stop.facts().quantity, field) << bad;
+                    EXPECT_THAT(stop.what(), HasSubstr("particle 42 of species 0 at ("));
+                    EXPECT_THAT(stop.what(), HasSubstr(field + " is "));
+                });
             EXPECT_EQ(ear.begun, 1);
             EXPECT_EQ(ear.steps, 0);
             EXPECT_EQ(ear.ended, 1); // the state found is still written
@@ -111,16 +114,18 @@ TEST(Watch, SeesTheLastParticleOfAPack)
         ASSERT_EQ(sim.particles().size(), 200u);
         sim.run({.steps = 1});
         sim.particles().column(velocity)[1][place_of(sim, id)] = nan_value;
-        expect_stop<NonFinite>("NonFinite", [&] { sim.run({.steps = 1}); },
-                               [&](Stop const& stop) { EXPECT_EQ(stop.facts().particle, id); });
+        expect_stop<NonFinite>(
+            "NonFinite", [&] { sim.run({.steps = 1}); },
+            [&](Stop const& stop) { EXPECT_EQ(stop.facts().particle, id); });
     }
 }
 // NaN made in the last step of a run is seen too.
 TEST(Watch, LooksOnceMoreAtTheEnd)
 {
     auto sim = collision(SymplecticEuler{});
-    expect_stop<NonFinite>("NonFinite", [&] { sim.run({.steps = 4, .dt = 1e-4}, Poison{}); },
-                           [&](Stop const& stop) { EXPECT_EQ(stop.facts().step, 4); });
+    expect_stop<NonFinite>(
+        "NonFinite", [&] { sim.run({.steps = 4, .dt = 1e-4}, Poison{}); },
+        [&](Stop const& stop) { EXPECT_EQ(stop.facts().step, 4); });
 }
 TEST(Watch, NamesTheParticleThatWentThroughAWall)
 {
@@ -128,27 +133,31 @@ TEST(Watch, NamesTheParticleThatWentThroughAWall)
     sim.run({.steps = 3});
     const std::size_t i = place_of(sim, 57);
     sim.particles().put(velocity, i, {{2000, 0}});
-    expect_stop<OutOfDomain>("OutOfDomain", [&] { sim.run({.steps = 100, .dt = 2e-4}); }, [](Stop const& stop) {
-        EXPECT_EQ(stop.facts().particle, 57);
-        EXPECT_GE(stop.facts().step, 4);
-        EXPECT_LE(stop.facts().step, 5);
-        EXPECT_GT(stop.facts().position[0], 0.4 + 0.06);
-        EXPECT_EQ(stop.facts().limit, 0.06); // three layers of markers
-        EXPECT_NEAR(stop.facts().value, stop.facts().position[0] - 0.4, 1e-15);
-    });
+    expect_stop<OutOfDomain>(
+        "OutOfDomain", [&] { sim.run({.steps = 100, .dt = 2e-4}); },
+        [](Stop const& stop) {
+            EXPECT_EQ(stop.facts().particle, 57);
+            EXPECT_GE(stop.facts().step, 4);
+            EXPECT_LE(stop.facts().step, 5);
+            EXPECT_GT(stop.facts().position[0], 0.4 + 0.06);
+            EXPECT_EQ(stop.facts().limit, 0.06); // three layers of markers
+            EXPECT_NEAR(stop.facts().value, stop.facts().position[0] - 0.4, 1e-15);
+        });
 }
 // Forward Euler triples the energy of a spring contact in each step of the seed's 1 ms (numbers: contact.cpp).
 TEST(Watch, StopsASchemeThatCreatesEnergy)
 {
     auto sim = collision(ForwardEuler{});
-    expect_stop<EnergyRunaway>("EnergyRunaway", [&] { sim.run({.steps = 30, .dt = 1e-3}); }, [](Stop const& stop) {
-        EXPECT_LE(stop.facts().step, 30);
-        EXPECT_GT(stop.facts().value, 0.05);
-        EXPECT_EQ(stop.facts().limit, 0.05);
-        EXPECT_EQ(stop.facts().particle, -1);
-    });
+    expect_stop<EnergyRunaway>(
+        "EnergyRunaway", [&] { sim.run({.steps = 30, .dt = 1e-3}); },
+        [](Stop const& stop) {
+            EXPECT_LE(stop.facts().step, 30);
+            EXPECT_GT(stop.facts().value, 0.05);
+            EXPECT_EQ(stop.facts().limit, 0.05);
+            EXPECT_EQ(stop.facts().particle, -1);
+        });
     EXPECT_GT(sim.report().energy_rise, 0.05);
-    EXPECT_EQ(sim.report().warnings.size(), 1u);
+    EXPECT_THAT(sim.report().warnings, Contains(HasSubstr("total energy has risen by ")));
 }
 TEST(Watch, LetsASchemeThatKeepsEnergyRun)
 {
@@ -163,7 +172,7 @@ TEST(Watch, ItsLimitsAreTheUsers)
     auto sim = collision(ForwardEuler{}, Watch{.energy_every = 1, .warn = 10, .stop = 1e9});
     sim.run({.steps = 30, .dt = 1e-3});
     EXPECT_GT(sim.report().energy_rise, 10);
-    EXPECT_EQ(sim.report().warnings.size(), 1u);
+    EXPECT_THAT(sim.report().warnings, Contains(HasSubstr("total energy has risen by ")).Times(1)); // told once
 }
 TEST(Watch, AForceAlongAPeriodicAxisIsASource)
 {
@@ -179,23 +188,27 @@ TEST(Watch, StopsWhenTheStepCollapses)
     auto sim = tank();
     sim.run({.steps = 3});
     sim.particles().put(velocity, place_of(sim, 10), {{0, 5e4}}); // c0 + |v| is 2500 c0
-    expect_stop<DtCollapse>("DtCollapse", [&] { sim.run({.steps = 3}); }, [](Stop const& stop) {
-        EXPECT_EQ(stop.facts().step, 3);
-        EXPECT_LT(stop.facts().value, stop.facts().limit);
-        EXPECT_THAT(stop.what(), HasSubstr("dt [s] is "));
-    });
+    expect_stop<DtCollapse>(
+        "DtCollapse", [&] { sim.run({.steps = 3}); },
+        [](Stop const& stop) {
+            EXPECT_EQ(stop.facts().step, 3);
+            EXPECT_LT(stop.facts().value, stop.facts().limit);
+            EXPECT_THAT(stop.what(), HasSubstr("dt [s] is "));
+        });
 }
 TEST(Watch, StopsAParticleThatIsBeyondAllCells)
 {
     Simulation sim(dem<2>({.mass = 0.1, .radius = 0.01}, LinearSpring{.k = 1e5}), SymplecticEuler{}, Open{}, Serial{});
     sim.add({{0, 0}}, {{1, 0}});
     sim.add({{1, 0}}, {{1e9, 0}});
-    expect_stop<IndexOverflow>("IndexOverflow", [&] { sim.run({.steps = 100, .dt = 1e-3}); }, [](Stop const& stop) {
-        EXPECT_EQ(stop.facts().particle, 1);
-        EXPECT_EQ(stop.facts().species, 0);
-        EXPECT_EQ(stop.facts().step, 1);
-        EXPECT_NEAR(stop.facts().position[0], 1e6, 10);
-    });
+    expect_stop<IndexOverflow>(
+        "IndexOverflow", [&] { sim.run({.steps = 100, .dt = 1e-3}); },
+        [](Stop const& stop) {
+            EXPECT_EQ(stop.facts().particle, 1);
+            EXPECT_EQ(stop.facts().species, 0);
+            EXPECT_EQ(stop.facts().step, 1);
+            EXPECT_NEAR(stop.facts().position[0], 1e6, 10);
+        });
 }
 TEST(NoWatch, LooksAtNothing)
 {

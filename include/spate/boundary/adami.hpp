@@ -16,6 +16,7 @@ inline constexpr struct PressureSum : ScalarField { static constexpr std::string
 // clang-format on
 
 /// Extrapolation (Adami, Hu & Adams 2012, eq. 27, numerator): sum_f (p_f + rho_f (g - a_w) . x_wf) W_wf.
+/// docs/models/boundaries.md (2).
 template <int Dim>
 struct AdamiSums {
     static constexpr Fields reads_j{pressure, density};
@@ -33,7 +34,7 @@ struct AdamiSums {
 };
 
 /// p_w = sum / sum_f W_wf, rho_w from it by the equation of state (eqs. 27, 28); a marker that sees next to nothing is at
-/// rest pressure.
+/// rest pressure. docs/models/boundaries.md (3).
 template <class E>
 struct AdamiState {
     static constexpr Fields reads{pressure_sum, kernel_sum};

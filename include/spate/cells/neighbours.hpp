@@ -107,12 +107,15 @@ private:
         std::vector<std::int32_t> length; // of target t
         std::vector<std::int32_t> list;   // of the cell, so far
         std::size_t used = 0;             // of it
+        std::vector<std::int32_t> nobody; // the list of a lane without a target
+        std::array<std::int32_t*, 64> lane{};
         std::size_t stride = 0;
 
         void make_room(std::size_t targets, std::size_t open)
         {
             length.resize(std::max(length.size(), targets));
             const std::size_t need = near.count + 32; // a selection writes whole registers
+            if (nobody.size() < need) nobody.resize(need);
             if (need <= stride && row.size() >= targets * stride) return;
             std::vector<std::int32_t> grown(need * targets);
             for (std::size_t t = 0; t < open; ++t)
@@ -257,6 +260,18 @@ private:
             return la != lb ? la > lb : a < b;
         });
     }
+    /// to[s * W + l] = record * row[l][s], s < length; W is 1 or a multiple of 4. Writes up to 8 W entries past the end.
+    static void interleave(std::int32_t const* const* row, int W, std::int32_t length, std::int32_t record,
+                           std::int32_t* to)
+    {
+        if (W % 8 == 0) {
+            for (std::int32_t s = 0; s < length; s += 8)
+                for (int l = 0; l < W; l += 8) interleave_8(row + l, s, W, record, to + s * W + l);
+            return;
+        }
+        for (std::int32_t s = 0; s < length; ++s)
+            for (int l = 0; l < W; ++l) to[s * W + l] = row[l][s] * record;
+    }
     /// Deals the targets of a window into blocks and appends their lists.
     static void deal(Window& open, std::vector<std::int32_t> const& order, std::int32_t first, int count, int W,
                      std::int32_t record, std::int32_t sentinel, CellLists& lists)
@@ -266,19 +281,19 @@ private:
             std::int32_t longest = 0;
             for (int l = b; l < std::min(b + W, count); ++l)
                 longest = std::max(longest, open.length[std::size_t(order[std::size_t(l)])]);
-            const std::size_t o = open.used;
+            const std::size_t o = open.used, full = std::size_t(longest + 8) * std::size_t(W); // interleaved by eights
             open.used += std::size_t(longest) * std::size_t(W);
-            if (list.size() < open.used) list.resize(2 * open.used);
+            if (list.size() < o + full) list.resize(2 * (o + full));
             for (int l = 0; l < W; ++l) {
                 const bool real = b + l < count;
                 const auto t = std::size_t(order[std::size_t(real ? b + l : count - 1)]);
                 const std::int32_t length = real ? open.length[t] : 0;
                 lists.target.push_back(first + std::int32_t(t));
-                std::int32_t const* from = open.row.data() + t * open.stride;
-                std::int32_t* to = list.data() + o + l;
-                for (std::int32_t s = 0; s < length; ++s, to += W) *to = from[s] * record;
-                for (std::int32_t s = length; s < longest; ++s, to += W) *to = sentinel;
+                std::int32_t* const row = real ? open.row.data() + t * open.stride : open.nobody.data();
+                std::fill(row + length, row + longest + 8, sentinel / record);
+                open.lane[std::size_t(l)] = row;
             }
+            interleave(open.lane.data(), W, longest, record, list.data() + o);
             lists.begin.push_back(std::int32_t(open.used / std::size_t(W)));
         }
     }

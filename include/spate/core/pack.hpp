@@ -74,15 +74,13 @@ struct Lanes {
     [[gnu::always_inline]] Lanes& operator-=(Lanes const& y) { return *this = *this - y; }
     [[gnu::always_inline]] Lanes& operator*=(Lanes const& y) { return *this = *this * y; }
     template <class U>
-        requires(std::is_arithmetic_v<U>)
-    [[gnu::always_inline]] Lanes& operator=(U value)
-    {
-        return *this = Lanes(value);
-    }
+    requires(std::is_arithmetic_v<U>) [[gnu::always_inline]] Lanes& operator=(U value) { return *this = Lanes(value); }
     // Fields that a term may only read are const: these say so.
     template <class U>
-        requires(std::same_as<U, Lanes> || std::is_arithmetic_v<U>)
-    void operator=(U const&) const { detail::only_read<U>(); }
+    requires(std::same_as<U, Lanes> || std::is_arithmetic_v<U>) void operator=(U const&) const
+    {
+        detail::only_read<U>();
+    }
     void operator+=(Lanes const&) const { detail::only_read<B>(); }
     void operator-=(Lanes const&) const { detail::only_read<B>(); }
     void operator*=(Lanes const&) const { detail::only_read<B>(); }
@@ -298,7 +296,7 @@ template <int Stride, int Count, class V>
 #if defined(__AVX512F__)
         constexpr bool rest = W == 8 && (Count % 4 == 1 || Count % 4 == 2);
 #else
-        constexpr bool rest = false;
+        [[maybe_unused]] constexpr bool rest = false;
 #endif
 #if defined(__AVX2__) || defined(__AVX512F__)
         constexpr int fours = rest ? Count / 4 : (Count + 3) / 4;
@@ -318,6 +316,35 @@ template <int Stride, int Count, class V>
             for (int f = 0; f < Count; ++f) t[f][k] = base[std::size_t(std::uint32_t(at[k])) + std::size_t(f)];
         for (int f = 0; f < Count; ++f) out[f] = V(decltype(V::b)::load_aligned(t[f]));
     }
+}
+
+/// to[k * W + l] = factor * row[l][s + k] for k, l < 8: eight entries of eight lists, interleaved.
+inline void interleave_8(std::int32_t const* const* row, std::int32_t s, int W, std::int32_t factor, std::int32_t* to)
+{
+#if defined(__AVX2__)
+    __m256i r[8], t[8];
+    for (int l = 0; l < 8; ++l)
+        r[l] = _mm256_mullo_epi32(_mm256_loadu_si256(reinterpret_cast<__m256i const*>(row[l] + s)),
+                                  _mm256_set1_epi32(factor));
+    for (int l = 0; l < 8; l += 2) { // pairs of lists, then fours, then eights
+        t[l] = _mm256_unpacklo_epi32(r[l], r[l + 1]);
+        t[l + 1] = _mm256_unpackhi_epi32(r[l], r[l + 1]);
+    }
+    for (int l = 0; l < 8; l += 4) {
+        r[l] = _mm256_unpacklo_epi64(t[l], t[l + 2]);
+        r[l + 1] = _mm256_unpackhi_epi64(t[l], t[l + 2]);
+        r[l + 2] = _mm256_unpacklo_epi64(t[l + 1], t[l + 3]);
+        r[l + 3] = _mm256_unpackhi_epi64(t[l + 1], t[l + 3]);
+    }
+    for (int k = 0; k < 4; ++k) {
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(to + k * W), _mm256_permute2x128_si256(r[k], r[k + 4], 0x20));
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(to + (k + 4) * W),
+                            _mm256_permute2x128_si256(r[k], r[k + 4], 0x31));
+    }
+#else
+    for (int k = 0; k < 8; ++k)
+        for (int l = 0; l < 8; ++l) to[k * W + l] = row[l][s + k] * factor;
+#endif
 }
 
 /// Appends to `list` the numbers first + k of those of 16 candidates that are nearer than the reach; at most

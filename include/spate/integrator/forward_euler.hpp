@@ -8,6 +8,7 @@
 namespace spate {
 
 /// y+ = y + dt f(y). On the imaginary axis |R|^2 = 1 + z^2: grows at every dt; on the negative real axis |z| <= 2.
+/// docs/models/time_integration.md (1), (2).
 struct ForwardEuler {
     static constexpr const char* name = "forward_euler";
     static constexpr int order = 1;

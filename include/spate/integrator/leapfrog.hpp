@@ -8,6 +8,7 @@ namespace spate {
 /// v' = v + dt/2 a; x' = x + dt/2 v'; rho+ = rho + dt rhodot(x', v'); x+ = x' + dt/2 v'; v+ = v' + dt/2 a(x+, rho+).
 /// No growth to omega dt < 2. Without a driven field the two half drifts are one: velocity Verlet. The force at the
 /// start of a step is that of the end of the last one; continuity and momentum are two dependent sweeps.
+/// docs/models/time_integration.md (6) to (8).
 struct Leapfrog {
     static constexpr const char* name = "leapfrog";
     static constexpr int order = 2;

@@ -8,7 +8,7 @@
 namespace spate {
 
 /// y' = y + dt/2 f(y); y+ = y + dt f(y'). On the imaginary axis |R|^2 = 1 + z^4/4: amplitudes grow by z^4/8 a step, so
-/// long runs need damping; on the negative real axis |z| <= 2.
+/// long runs need damping; on the negative real axis |z| <= 2. docs/models/time_integration.md (9), (10).
 struct RungeKutta2 {
     static constexpr const char* name = "runge_kutta2";
     static constexpr int order = 2;

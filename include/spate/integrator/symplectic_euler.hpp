@@ -6,7 +6,7 @@
 namespace spate {
 
 /// v+ = v + dt a(x, rho); x+ = x + dt v+, rho+ = rho + dt rhodot(x, v+). Energy stays bounded to omega dt < 2.
-/// Where a drift needs a rate (density), it is a second, dependent sweep.
+/// Where a drift needs a rate (density), it is a second, dependent sweep. docs/models/time_integration.md (3) to (5).
 struct SymplecticEuler {
     static constexpr const char* name = "symplectic_euler";
     static constexpr int order = 1;

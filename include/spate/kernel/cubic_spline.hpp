@@ -10,7 +10,7 @@
 namespace spate {
 
 /// Cubic spline (Monaghan & Lattanzio 1985): f(q) = (2-q)^3 - 4(1-q)^3 for q < 1, (2-q)^3 for q < 2, 0 beyond;
-/// sigma = 1/6, 5/(14 pi), 1/(4 pi) over h^dim.
+/// sigma = 1/6, 5/(14 pi), 1/(4 pi) over h^dim. docs/models/wcsph.md (2).
 template <int Dim>
 struct CubicSpline {
     static constexpr int dim = Dim;

@@ -10,7 +10,7 @@
 namespace spate {
 
 /// Wendland C2 (Wendland 1995; Dehnen & Aly 2012, table 1): f(q) = (1-q/2)^4 (2q+1) in 2D and 3D, sigma = 7/(4 pi),
-/// 21/(16 pi) over h^dim; f(q) = (1-q/2)^3 (3q/2+1) in 1D, sigma = 5/8 over h.
+/// 21/(16 pi) over h^dim; f(q) = (1-q/2)^3 (3q/2+1) in 1D, sigma = 5/8 over h. docs/models/wcsph.md (3), (4).
 template <int Dim>
 struct WendlandC2 {
     static constexpr int dim = Dim;

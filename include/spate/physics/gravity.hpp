@@ -8,7 +8,7 @@
 
 namespace spate {
 
-/// Gravity: dv_i/dt = g.
+/// Gravity: dv_i/dt = g. docs/models/wcsph.md (20).
 template <int Dim>
 struct Gravity {
     static constexpr Fields adds{acceleration};

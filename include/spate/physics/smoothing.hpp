@@ -48,7 +48,7 @@ struct Smoothing {
         const V s = V(kernel.sigma());
         ij.w = s * K::f(q);
         ij.grad_w.F = V(kernel.sigma() / (kernel.h * kernel.h)) * K::g(q);
-        ij.grad_w.x = ij.x;
+        ij.grad_w.x = i[position] - j[position]; // not a copy of ij.x: g++ would send it through the stack
         return ij;
     }
 };

@@ -128,6 +128,7 @@ template <class V, class I, class Tuple, class Ri, class Ui, class A, class Src>
     scalar_t<V> const* base = source.packed.data.data();
     std::int32_t const* index = lists.index.data() + std::size_t(lists.begin[block]) * std::size_t(width<V>);
     std::int32_t const* end = lists.index.data() + std::size_t(lists.begin[block + 1]) * std::size_t(width<V>);
+    A mine = sums; // a copy in registers: g++ would store sums to the stack with each pack
     for (; index != end; index += width<V>) {
         const auto rj = gathered<V>(base, index, L{});
         const auto ij = pair_of<I, V>(interaction, ri, ui, rj, uj);
@@ -136,16 +137,17 @@ template <class V, class I, class Tuple, class Ri, class Ui, class A, class Src>
             using Memory = Kept<I::dim, V, typename Src::Kept>;
             const auto row = std::size_t(index - lists.index.data()) / std::size_t(width<V>);
             Memory kept((*source.memory)[cell].data() + row * std::size_t(Memory::L::count * width<V>));
-            apply_all<Src::terms>(all, ri, ui, rj, uj, sums, ij, terms, &kept.record);
+            apply_all<Src::terms>(all, ri, ui, rj, uj, mine, ij, terms, &kept.record);
             if constexpr (requires { ij.mask; }) kept.put_back(ij.mask);
             else kept.put_back();
         }
         else {
             if constexpr (requires { ij.mask; })
                 if (!spate::any(ij.mask)) continue; // qualified: xsimd has one too
-            apply_all<Src::terms>(all, ri, ui, rj, uj, sums, ij, terms);
+            apply_all<Src::terms>(all, ri, ui, rj, uj, mine, ij, terms);
         }
     }
+    sums = mine;
 }
 /// Terms that count i with itself, and particle terms that add to the same sums.
 template <Mask terms, class V, class I, class Ri, class Ui, class A, class... T, std::size_t... t>

@@ -524,14 +524,18 @@ private:
         constexpr auto stride = std::size_t(L::stride);
         if (x.packed.data.size() != records * stride) x.packed.data.assign(records * stride, T(1));
         T* const data = x.packed.data.data();
-        stretches<s>([&](std::size_t first, std::size_t last) {
-            for_each(M::template fields<copied>(), [&]<class F>(F f) {
-                for (int c = 0; c < components<F, dim>; ++c) {
-                    T const* from = x.particles.column(f)[std::size_t(c)].data();
-                    T* to = data + std::size_t(L::template offset<F> + c);
-                    for (std::size_t i = first; i < last; ++i) to[i * stride] = from[i];
-                }
-            });
+        stretches<s>([&](std::size_t first, std::size_t end) {
+            constexpr std::size_t in_cache = 256; // records that stay in the first-level cache over all their fields
+            for (std::size_t last; first < end; first = last) {
+                last = std::min(end, first + in_cache);
+                for_each(M::template fields<copied>(), [&]<class F>(F f) {
+                    for (int c = 0; c < components<F, dim>; ++c) {
+                        T const* from = x.particles.column(f)[std::size_t(c)].data();
+                        T* to = data + std::size_t(L::template offset<F> + c);
+                        for (std::size_t i = first; i < last; ++i) to[i * stride] = from[i];
+                    }
+                });
+            }
         });
         constexpr auto at = std::size_t(L::template offset<Position>);
         for (std::size_t f = 0; f < stride && n > 0; ++f) data[n * stride + f] = data[f];

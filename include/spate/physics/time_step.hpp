@@ -49,6 +49,7 @@ struct TimeStep {
 
 /// Acoustic C h / (c0 + max|v|), viscous C/2 h^2 / nu (0.125 at C = 0.25: Morris, Fox & Zhu 1997), force
 /// C sqrt(h / max|a|) (Monaghan 1992), contact pi / (25 omega); the fields of `s` say which apply.
+/// docs/models/wcsph.md (21) to (23), dem.md (8).
 inline TimeStep time_step(Stiffness const& s, double cfl, double speed, double acceleration)
 {
     TimeStep t;

@@ -11,7 +11,7 @@
 namespace spate {
 
 /// Linear spring (Cundall & Strack 1979, normal part): m_i dv_i/dt = sum_j k overlap_ij n_ij. Contact of two equal
-/// masses: omega = sqrt(2 k / m), t_c = pi / omega.
+/// masses: omega = sqrt(2 k / m), t_c = pi / omega. docs/models/dem.md (3) to (7).
 struct LinearSpring {
     static constexpr Fields reads_i{mass};
     static constexpr Fields adds{acceleration};

@@ -11,7 +11,8 @@ namespace spate {
 
 /// Artificial viscosity (Monaghan 1992, eqs. 4.1, 4.2, with beta = 0): dv_i/dt = -sum_j m_j Pi_ij grad W_ij,
 /// Pi_ij = -alpha c0 mu_ij / rho for approaching pairs, else 0; mu_ij = h v_ij . x_ij / (r^2 + 0.01 h^2),
-/// rho = (rho_i + rho_j)/2. Acts as a kinematic viscosity of alpha c0 h / (2 (dim + 2)).
+/// rho = (rho_i + rho_j)/2. On all pairs it would act as a kinematic viscosity of alpha c0 h / (2 (dim + 2)); on those
+/// that approach it acts as half of that in shear. docs/models/wcsph.md (16).
 struct ArtificialViscosity {
     static constexpr Fields reads{velocity, density};
     static constexpr Fields reads_j{mass};

@@ -9,6 +9,7 @@ namespace spate {
 
 /// Continuity (Monaghan 1994, eq. 2.1; sigma family of the seed): d rho_i/dt = sum_j m_j v_ij . grad W_ij
 /// / (rho_i^(sigma-2) rho_j^(2-sigma)). Energy is conserved only with PressureForce of the same sigma.
+/// docs/models/wcsph.md (9) to (11).
 template <int Sigma>
 struct Continuity;
 

@@ -14,7 +14,7 @@ namespace spate {
 
 /// Density diffusion (Molteni & Colagrossi 2009, eq. 5): d rho_i/dt += delta h c0 sum_j m_j/rho_j psi_ij . grad W_ij,
 /// psi_ij = 2 (rho_i - rho_j) x_ij / (r^2 + 0.01 h^2). Drives a drift at a free surface under gravity.
-/// Mobile <- mobile only, so that it moves no mass into a wall.
+/// Mobile <- mobile only, so that it moves no mass into a wall. docs/models/wcsph.md (17), (18).
 struct MolteniColagrossi {
     static constexpr Fields reads{density};
     static constexpr Fields reads_j{mass};
@@ -44,6 +44,7 @@ struct MolteniColagrossi {
 /// Density diffusion of the dynamic part (Fourtakas et al. 2019, eqs. 10-12): as Molteni & Colagrossi with rho_i - rho_j
 /// less the hydrostatic difference rho_H = rho0 ((1 + p_H/B)^(1/7) - 1), p_H = rho0 g . x_ij; the default under gravity.
 /// The root is its series to third order in p_H/B (error 1e-8 rho0 at p_H/B = 0.02); no gradient pass.
+/// docs/models/wcsph.md (19).
 template <int Dim>
 struct Fourtakas {
     static constexpr Fields reads{density};

@@ -10,7 +10,7 @@ namespace spate {
 
 /// Laminar viscosity (Morris, Fox & Zhu 1997, eq. 22, with the seed's mean density):
 /// dv_i/dt = sum_j m_j 2 mu x_ij . grad W_ij v_ij / (rho^2 (r^2 + eps h^2)), rho = (rho_i + rho_j)/2.
-/// Conserves linear, not angular momentum.
+/// Conserves linear, not angular momentum. docs/models/wcsph.md (15).
 struct LaminarViscosity {
     static constexpr Fields reads{velocity, density};
     static constexpr Fields reads_j{mass};

@@ -12,6 +12,7 @@
 namespace spate {
 
 /// Linear equation of state (Morris, Fox & Zhu 1997, eq. 11): p = c0^2 (rho - rho0).
+/// docs/models/wcsph.md (6), (7), (8).
 struct LinearEos {
     static constexpr Fields reads{density};
     static constexpr Fields writes{pressure};

@@ -9,6 +9,7 @@ namespace spate {
 
 /// Pressure force (Monaghan 1992, eq. 3.3; sigma family of the seed):
 /// dv_i/dt = -sum_j m_j (p_i/(rho_i^sigma rho_j^(2-sigma)) + p_j/(rho_i^(2-sigma) rho_j^sigma)) grad W_ij.
+/// docs/models/wcsph.md (12) to (14).
 template <int Sigma>
 struct PressureForce;
 

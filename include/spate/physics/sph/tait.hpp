@@ -13,6 +13,7 @@ namespace spate {
 
 /// Tait (Monaghan 1994, eq. 3.2; Cole 1948): p = B ((rho/rho0)^7 - 1), B = rho0 c0^2 / 7.
 /// Computed as B s(7 + s(21 + ...)), s = (rho - rho0)/rho0: exact near s = 0 in float too, and without libm.
+/// docs/models/wcsph.md (5), (7), (8).
 struct Tait {
     static constexpr Fields reads{density};
     static constexpr Fields writes{pressure};

@@ -1,0 +1,278 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Prints the table of a benchmark and draws it: python3 bench/plot.py NAME, from build/bench/NAME.json into that folder."""
+import json
+import re
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+
+FOLDER = Path(__file__).resolve().parent.parent / "build" / "bench"
+BLUE, ORANGE, GREEN, PURPLE, GREY = "#2166ac", "#d6604d", "#4d9221", "#762a83", "#737373"
+
+plt.rcParams.update(
+    {
+        "font.size": 11,
+        "axes.titlesize": 12,
+        "axes.titlelocation": "left",
+        "axes.spines.top": False,
+        "axes.spines.right": False,
+        "axes.grid": True,
+        "axes.axisbelow": True,
+        "grid.color": "#e5e5e5",
+        "legend.frameon": False,
+        "svg.fonttype": "none",
+    }
+)
+
+
+class Run:
+    """The figures of one run: {benchmark: its counters}, and where they come from."""
+
+    def __init__(self, name):
+        data = json.loads((FOLDER / f"{name}.json").read_text())
+        self.context = data["context"]
+        self.all = {}
+        for b in data["benchmarks"]:
+            if b.get("run_type") == "aggregate" or "error_message" in b:
+                continue
+            self.all[re.sub(r"/(iterations|min_time|repeats):[^/]*", "", b["name"])] = b
+
+    def __getitem__(self, benchmark):
+        return self.all[benchmark]
+
+    def get(self, benchmark, counter="ns"):
+        return self.all.get(benchmark, {}).get(counter)
+
+    def footer(self, threads="1 thread"):
+        c = self.context
+        return (
+            f"{c.get('cpu', 'unknown processor')} ({c['num_cpus']} cores), {c.get('compiler', '?')} -O3 -march=native, "
+            f"commit {c.get('commit', '?')}, {threads}, {c['date'][:10]}"
+        )
+
+
+def save(figure, name, footer):
+    figure.text(0.01, 0.005, footer, fontsize=9, color=GREY)
+    for kind in ("png", "svg"):
+        figure.savefig(FOLDER / f"{name}.{kind}", dpi=110)
+    print(f"plot: {FOLDER.name}/{name}.png and .svg in {FOLDER.parent.name}/")
+
+
+def table(rows, header):
+    """Columns as wide as they need be; numbers to the right."""
+    text = [[c if isinstance(c, str) else "" if c is None else f"{c:.3g}" if abs(c) < 100 else f"{c:.0f}" for c in r] for r in rows]
+    width = [max(len(r[k]) for r in [header, *text]) for k in range(len(header))]
+    for r in [header, *text]:
+        print("  ".join(c.ljust(w) if k == 0 else c.rjust(w) for k, (c, w) in enumerate(zip(r, width))).rstrip())
+
+
+def bars(axis, labels, series, title, unit):
+    """Horizontal groups of bars, one group a label; series: (name, colour, values)."""
+    height = 0.8 / len(series)
+    for s, (name, colour, values) in enumerate(series):
+        at = [k + (s - (len(series) - 1) / 2) * height for k in range(len(labels))]
+        shown = [v if v is not None else 0 for v in values]
+        axis.barh(at, shown, height * 0.92, color=colour, label=name)
+        for y, v in zip(at, values):
+            if v is not None:
+                axis.annotate(f"{v:.3g}" if v < 100 else f"{v:.0f}", (v, y), (3, 0), textcoords="offset points", va="center", fontsize=9)
+    axis.set_yticks(range(len(labels)), labels)
+    axis.invert_yaxis()
+    axis.grid(axis="y", visible=False)
+    axis.set_xlabel(unit)
+    axis.set_title(title)
+    axis.margins(x=0.12)
+    if len(series) > 1:
+        axis.legend(loc="best", fontsize=10)
+
+
+def kernel(run):
+    names = lambda prefix: list(dict.fromkeys(b.split("/")[1] for b in run.all if b.startswith(prefix + "/")))
+    kernels = [f"{k}/{f}" for k in names("kernel") for f in "fg"]
+    types = [("double", BLUE), ("float", ORANGE)]
+    print("kernels, ns a value")
+    columns = [f"{t}/{v}" for t, _ in types for v in ("scalar", "packs")]
+    table([[k] + [run.get(f"kernel/{k}/{c}") for c in columns] for k in kernels], ["", *columns])
+    terms = names("term")
+    print("\npair terms from L1, ns a pair")
+    columns = [f"{t}/{v}" for t, _ in types for v in ("scalar", "records", "packs")]
+    table([[k] + [run.get(f"term/{k}/{c}") for c in columns] for k in terms], ["", *columns])
+    stages = names("stage")
+    print("\nstages of an evaluation and of a rebuild, ns a particle")
+    table([[k, run.get(f"stage/{k}")] for k in stages], ["", "ns"])
+    print("\nselection, ns a candidate: 2D %.3f, 3D %.3f" % (run.get("selection/2D"), run.get("selection/3D")))
+    steps = names("integrator")
+    print("\nintegrators, ns a particle and step")
+    table([[k, run.get(f"integrator/{k}/dam_break"), run.get(f"integrator/{k}/gravity")] for k in steps], ["", "dam break", "gravity only"])
+
+    figure, axes = plt.subplots(2, 2, figsize=(15, 12), layout="constrained", gridspec_kw={"height_ratios": [1.5, 1]})
+    figure.get_layout_engine().set(rect=(0, 0.025, 1, 0.975))
+    bars(
+        axes[0, 0],
+        terms,
+        [
+            ("double, packs that lie ready", BLUE, [run.get(f"term/{k}/double/packs") for k in terms]),
+            ("double, records from lists", "#92c5de", [run.get(f"term/{k}/double/records") for k in terms]),
+            ("float, packs that lie ready", ORANGE, [run.get(f"term/{k}/float/packs") for k in terms]),
+            ("float, records from lists", "#f4a582", [run.get(f"term/{k}/float/records") for k in terms]),
+        ],
+        "Pair terms, all data in the first-level cache",
+        "ns a pair",
+    )
+    bars(
+        axes[0, 1],
+        terms,
+        [(f"{t}, one at a time", c, [run.get(f"term/{k}/{t}/scalar") for k in terms]) for t, c in types],
+        "The same without packs",
+        "ns a pair",
+    )
+    bars(
+        axes[1, 0],
+        kernels,
+        [(f"{t}, packs", c, [run.get(f"kernel/{k}/{t}/packs") for k in kernels]) for t, c in types],
+        "Kernels: shape f and slope g",
+        "ns a value",
+    )
+    bars(
+        axes[1, 1],
+        stages + [f"step, {k}" for k in steps],
+        [("", BLUE, [run.get(f"stage/{k}") for k in stages] + [run.get(f"integrator/{k}/dam_break") for k in steps])],
+        "Stages on a block of 85,184; whole steps on one of 1,728",
+        "ns a particle",
+    )
+    save(figure, "kernel", run.footer())
+
+
+def cell_size(run):
+    rows = []
+    for name, b in run.all.items():
+        p = {k: int(v) for k, v in re.findall(r"(\w+):(\d+)", name)}
+        rows.append({**p, "skin": p["skin_permille"] / 1000, "h": p["h_tenths"] / 10, **b})
+    values = lambda key: sorted({r[key] for r in rows})
+    cells, finer, skins, hs = values("cell"), values("finer"), values("skin"), values("h")
+
+    def at(counter, **where):
+        return next((r[counter] for r in rows if all(r[k] == v for k, v in where.items())), None)
+
+    usual = {"cell": 4, "finer": 4, "skin": 0.07}
+    for h in hs:
+        print(f"h/dx {h}: {at('pairs', h=h, **usual):.1f} pairs a particle; ns a particle with a list kept as long as in a dam break")
+        columns = [f"finer {f}" for f in finer]
+        table(
+            [
+                [f"cell {c:2}, skin {s:.2f}"] + [at("flow_ns", cell=c, finer=f, skin=s, h=h) for f in finer] + [at(k, cell=c, finer=4, skin=s, h=h) for k in ("sweep_ns", "rebuild_ns", "slots_pair")]
+                for c in cells
+                for s in skins
+            ],
+            ["", *columns, "sweep", "rebuild", "slots/pair"],
+        )
+        best = min((r for r in rows if r["h"] == h), key=lambda r: r["flow_ns"])
+        print(f"least: {best['flow_ns']:.0f} at cell {best['cell']}, finer {best['finer']}, skin {best['skin']}\n")
+
+    figure, axes = plt.subplots(len(hs), 4, figsize=(17, 3.9 * len(hs)), layout="constrained", squeeze=False)
+    figure.get_layout_engine().set(rect=(0, 0.025, 1, 0.975))
+    shades = [plt.get_cmap("viridis")(0.9 * k / max(1, len(skins) - 1)) for k in range(len(skins))]
+    for row, h in zip(axes, hs):
+        per_cell = lambda counter: [[at(counter, cell=c, finer=4, skin=s, h=h) for c in cells] for s in skins]
+        for axis, counter, title in (
+            (row[0], "sweep_ns", "sweep"),
+            (row[1], "rebuild_ns", "rebuild"),
+            (row[2], "flow_ns", "evaluation with its part of a rebuild"),
+        ):
+            for s, colour, line in zip(skins, shades, per_cell(counter)):
+                axis.plot(cells, line, "o-", color=colour, label=f"skin {s:.2f}")
+            axis.set_xscale("log", base=2)
+            axis.set_xticks(cells, [str(c) for c in cells])
+            axis.set_xlabel("edge of a cell [ranges]")
+            axis.set_ylabel("ns a particle")
+            axis.set_ylim(bottom=0)
+            axis.set_title(f"h/dx {h}: {title}")
+        row[0].legend(fontsize=10)
+        colours = (BLUE, ORANGE, GREEN, PURPLE)
+        for f, colour in zip(finer, colours):
+            row[3].plot(skins, [at("rebuild_ns", cell=4, finer=f, skin=s, h=h) for s in skins], "o-", color=colour, label=f"{f} bins a range")
+        row[3].set_xlabel("skin [of the range]")
+        row[3].set_ylabel("rebuild, ns a particle")
+        row[3].set_ylim(bottom=0)
+        row[3].set_title(f"h/dx {h}: shape of a bin")
+        row[3].legend(fontsize=10)
+        twin = row[3].twinx()
+        twin.plot(skins, [at("slots_pair", cell=4, finer=4, skin=s, h=h) for s in skins], "s--", color=GREY)
+        twin.set_ylabel("slots a pair (dashed)", color=GREY)
+        twin.set_ylim(bottom=1)
+        twin.grid(False)
+    save(figure, "cell_size", run.footer())
+
+
+def figures(run):
+    """(what, reached, limit, aim, unit); more is better where the limit is a speed-up."""
+    one, two, single = "dam_break_big<Double>/threads:1", "dam_break_big<Double>/threads:2", "dam_break_big<Float>/threads:1"
+    get = run.get
+    speed_up = get(one, "wall_ns_pair") / get(two, "wall_ns_pair") if get(one, "wall_ns_pair") and get(two, "wall_ns_pair") else None
+    return [
+        ("dam break big, a directed pair [ns]", get(one, "cpu_ns_pair"), 4.0, 3.2),
+        ("dam break big, a marker [ns]", get(one, "cpu_ns_marker"), 140, 110),
+        ("two threads, times as fast", speed_up, 1.8, None),
+        ("sweep over the same terms on packs from L1", get("sweep", "over_packs"), 2.2, 1.8),
+        ("float over double, sweep", get("sweep", "float_over_double"), 0.75, None),
+        ("discs, a particle-step [ns]", get("dense_discs/threads:1", "cpu_ns_marker"), 18, 11.5),
+        ("bytes a marker", get(one, "bytes_a_marker"), 450, None),
+    ]
+
+
+def step(run):
+    rows = figures(run)
+    table([[w, v, f"{'>=' if 'times' in w else '<='} {limit}", aim] for w, v, limit, aim in rows], ["figure to reach", "reached", "limit", "aim"])
+    print()
+    scenes = [b for b in run.all if "cpu_ns_pair" in run[b]]
+    columns = ["cpu_ns_pair", "wall_ns_pair", "cpu_ns_marker", "wall_ns_marker", "steps", "rebuilds", "pairs_a_marker"]
+    table([[b] + [run.get(b, c) for c in columns] for b in scenes], ["whole steps", *columns])
+    if "sweep" in run.all:
+        print()
+        columns = ["double_ns_pair", "float_ns_pair", "records_ns_pair", "packs_ns_pair", "over_records", "slots_pair"]
+        table([["dam break big"] + [run.get("sweep", c) for c in columns]], ["sweep", *columns])
+
+    known = [r for r in rows if r[1] is not None]
+    figure, axis = plt.subplots(figsize=(11, 0.75 * len(known) + 1.8), layout="constrained")
+    figure.get_layout_engine().set(rect=(0, 0.05, 1, 0.95))
+    share = lambda what, v, limit: limit / v if "times" in what else v / limit
+    parts = [share(w, v, limit) for w, v, limit, _ in known]
+    axis.barh(range(len(known)), parts, 0.6, color=[BLUE if p <= 1 else ORANGE for p in parts])
+    for k, ((what, v, limit, aim), p) in enumerate(zip(known, parts)):
+        axis.annotate(f"{v:.3g} (limit {limit:g})", (p, k), (5, 0), textcoords="offset points", va="center", fontsize=10)
+        if aim:
+            axis.plot([share(what, aim, limit)] * 2, [k - 0.36, k + 0.36], color="black", lw=2, label="aim" if k == 0 else None)
+    axis.axvline(1, color=GREY, lw=1.5, ls="--", label="limit")
+    axis.set_yticks(range(len(known)), [w for w, *_ in known])
+    axis.invert_yaxis()
+    axis.grid(axis="y", visible=False)
+    axis.set_xlim(0, max(1.25, 1.35 * max(parts)))
+    axis.set_xlabel("share of the limit (for the speed-up: limit over what was reached)")
+    axis.set_title("Figures to reach: double, one thread unless said")
+    axis.legend(loc="lower right")
+    save(figure, "step", run.footer("1 and 2 threads"))
+
+
+def term_deleted(run):
+    counts = {}
+    for line in (FOLDER / "instructions.txt").read_text().splitlines():
+        number, terms = int(line.split()[0]), line.rsplit(", ", 1)[1]
+        key = "neither" if not re.search("Fourtakas|Viscosity", terms) else "no_viscosity" if "Viscosity" not in terms else "no_diffusion" if "Fourtakas" not in terms else "all"
+        counts[key] = (number, ", ".join(line.split(", ")[1:4]))
+    said = {"all": "all terms", "no_viscosity": "without ArtificialViscosity", "no_diffusion": "without DensityDiffusion", "neither": "without both"}
+    table([[said[k], run.get("term_deleted", f"{k}_ns_pair"), str(counts[k][0]), counts[k][1]] for k in said], ["sweep", "ns a pair", "instructions", ""])
+
+
+def hand_loop(run):
+    for name, b in run.all.items():
+        table([[k, v] for k, v in b.items() if isinstance(v, float) and k not in ("real_time", "cpu_time")], [name, ""])
+
+
+if __name__ == "__main__":
+    draw = {f.__name__: f for f in (kernel, cell_size, step, term_deleted, hand_loop)}
+    if len(sys.argv) == 2 and sys.argv[1] in draw:
+        draw[sys.argv[1]](Run(sys.argv[1]))

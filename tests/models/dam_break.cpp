@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A column of water twice as high as wide falls in 2D, in the scene of the front page, against Martin & Moyce (1952):
+// the front alone passes even for runs that are blowing up, so energy, density and leaks are looked at as well.
+#include "models/results.hpp"
+#include "oracle/table.hpp"
+
+#include "spate/measure/front.hpp"
+#include "spate/measure/gauge.hpp"
+#include "spate/measure/leaks.hpp"
+#include "spate/spate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace {
+
+using namespace spate;
+
+constexpr double a = 0.3, H = 2 * a, g = 9.81; // width and height of the column [m], gravity [m/s^2]
+
+/// A quantity over time, or a table of the experiment, in the units of Martin & Moyce.
+struct Curve {
+    std::vector<double> t, y;
+
+    [[nodiscard]] double at(double time) const // linear between points
+    {
+        const auto k = std::size_t(std::clamp(std::upper_bound(t.begin(), t.end(), time) - t.begin(), std::ptrdiff_t(1),
+                                              std::ptrdiff_t(t.size()) - 1));
+        return y[k - 1] + (y[k] - y[k - 1]) * (time - t[k - 1]) / (t[k] - t[k - 1]);
+    }
+};
+/// \param last  rows of later times are left out
+Curve measured(std::string const& file, std::string const& time, std::string const& value, double last)
+{
+    Curve c;
+    for (auto const& row : oracle::table(file)) {
+        if (std::stod(row.at(time)) > last) continue;
+        c.t.push_back(std::stod(row.at(time)));
+        c.y.push_back(std::stod(row.at(value)));
+    }
+    return c;
+}
+/// Of a straight line through the points from a time on, by least squares.
+double slope(Curve const& c, double from)
+{
+    double n = 0, st = 0, sy = 0, stt = 0, sty = 0;
+    for (std::size_t k = 0; k < c.t.size(); ++k) {
+        if (c.t[k] < from) continue;
+        n += 1, st += c.t[k], sy += c.y[k], stt += c.t[k] * c.t[k], sty += c.t[k] * c.y[k];
+    }
+    return (n * sty - st * sy) / (n * stt - st * st);
+}
+
+/// What a run shows, to T = t sqrt(2 g/a) = 3.5, before the front meets the end of the tank.
+struct Fall {
+    Curve front;                  // Z = x/a over T
+    Curve height;                 // h/H at the wall behind over tau = t sqrt(g/a)
+    double energy_rise = 0;       // largest total energy over that of the start [-]
+    double energy_left = 0;       // at the end [-]
+    double density = 0;           // largest |rho/rho0 - 1| [-]
+    double leaks = 0;             // most particles beyond a wall face by more than half a spacing
+    double farthest = -1;         // of any particle beyond a wall face [spacings]
+    double shift = 0, error = 0;  // best shift of time, and what is left of the rms relative error [-]
+    double unshifted = 0;         // rms relative error as it stands [-]
+    double of_norm = 0;           // at the best shift: rms(sim - data) / rms(data)
+    double speed = 0;             // slope of the shifted front at the data's times from 1.43 on [-]
+    double height_difference = 0; // largest of the height at the wall, to tau = 2.45 [-]
+};
+
+/// The front at the data's times, started late by a shift: the gate of the experiment takes a moment to open.
+Curve shifted(Curve const& front, Curve const& data, double shift)
+{
+    Curve c{data.t, {}};
+    for (double t : data.t) c.y.push_back(front.at(t - shift));
+    return c;
+}
+double relative_error(Curve const& c, Curve const& data)
+{
+    double sum = 0;
+    for (std::size_t k = 0; k < data.t.size(); ++k) sum += std::pow(c.y[k] / data.y[k] - 1, 2);
+    return std::sqrt(sum / double(data.t.size()));
+}
+double error_of_norm(Curve const& c, Curve const& data)
+{
+    double sum = 0, norm = 0;
+    for (std::size_t k = 0; k < data.t.size(); ++k)
+        sum += std::pow(c.y[k] - data.y[k], 2), norm += data.y[k] * data.y[k];
+    return std::sqrt(sum / norm);
+}
+void compare(Fall& f)
+{
+    const Curve data = measured("martin_moyce_1952_n2_2_front.csv", "T", "Z", 3.4);
+    f.unshifted = relative_error(shifted(f.front, data, 0), data);
+    f.error = std::numeric_limits<double>::infinity();
+    for (double shift = 0.05; shift < 0.3005; shift += 0.001) {
+        const double e = relative_error(shifted(f.front, data, shift), data);
+        if (e < f.error) f.error = e, f.shift = shift;
+    }
+    f.of_norm = error_of_norm(shifted(f.front, data, f.shift), data);
+    f.speed = slope(shifted(f.front, data, f.shift), 1.43);
+    const Curve heights = measured("martin_moyce_1952_n2_2_height.csv", "tau", "H", 2.45);
+    for (std::size_t k = 0; k < heights.t.size(); ++k)
+        f.height_difference = std::max(f.height_difference, std::abs(f.height.at(heights.t[k]) - heights.y[k]));
+}
+
+/// \param n  spacings in the height of the column
+Fall fall(int n, double alpha = 0.02)
+{
+    const double dx = H / n, c0 = 10 * std::sqrt(2 * g * H);
+    auto water = wcsph(CubicSpline<2>{.h = 1.2 * dx}, Tait{.rho0 = 1000, .c0 = c0}, Continuity<2>{},
+                       DensityDiffusion{.delta = 0.1}, PressureForce<2>{}, ArtificialViscosity{.alpha = alpha},
+                       Gravity<2>{{0, -g}});
+    Bce tank(Box<2>{{0, 0}, {4 * H, 2 * H}}, dx, Adami{.suction = false}, open(top));
+    Simulation dam(water, RungeKutta2{}, tank, Serial{});
+    dam.fill(Box<2>{{0, 0}, {a, H}}, dx, hydrostatic);
+    const double start = dam.energy().total();
+    Fall f;
+    auto file = models::results("dam_break_" + std::to_string(n) + ".csv", "T,Z,tau,h_over_H,energy,leaks");
+    for (int k = 0; k <= 175; ++k) {
+        const double t = 0.02 * k * std::sqrt(a / (2 * g));
+        if (k > 0) dam.run({.until = t, .cfl = 0.2});
+        const double leaks = Leaks{dx}(dam), T = 0.02 * k, tau = T / std::sqrt(2);
+        f.front.t.push_back(T), f.front.y.push_back(Front{dx}(dam) / a);
+        f.height.t.push_back(tau), f.height.y.push_back(Gauge("", Vec<2, double>{0, 0}, dx)(dam) / H);
+        f.energy_left = dam.energy().total() / start;
+        f.energy_rise = std::max(f.energy_rise, f.energy_left - 1);
+        f.leaks = std::max(f.leaks, leaks);
+        auto const& p = dam.particles();
+        for (std::size_t i = 0; i < p.size(); ++i)
+            f.farthest = std::max(f.farthest, tank.beyond<2>(p.at(position, i)) / dx);
+        file << T << ',' << f.front.y.back() << ',' << tau << ',' << f.height.y.back() << ',' << f.energy_left << ','
+             << leaks << '\n';
+    }
+    auto const& r = dam.report();
+    f.energy_rise = std::max(f.energy_rise, r.energy_rise * r.energy_reference / r.start.total());
+    f.density = r.density_change;
+    compare(f);
+    std::printf(
+        "H/dx %d, alpha %g: rms relative error %.2f %% at shift %.3f (unshifted %.2f %%; rms/rms %.2f %%), slope %.3f, energy rise "
+        "%.4f %%, left %.1f %%, density %.2f %%, leaks %.0f, farthest %.2f dx, height %.3f\n",
+        n, alpha, 100 * f.error, f.shift, 100 * f.unshifted, 100 * f.of_norm, f.speed, 100 * f.energy_rise,
+        100 * f.energy_left, 100 * f.density, f.leaks, f.farthest, f.height_difference);
+    return f;
+}
+
+TEST(DamBreak, TableIsThatOfMartinAndMoyce)
+{
+    const Curve data = measured("martin_moyce_1952_n2_2_front.csv", "T", "Z", 3.4);
+    ASSERT_EQ(data.t.size(), 15u);
+    EXPECT_NEAR(slope(data, 1.43), 1.319, 5e-4);
+    EXPECT_EQ(data.at(0.41), 1.11);
+    EXPECT_NEAR(data.at(2.58), 3.11, 1e-12); // half way from 3 to 3.22
+}
+
+/// The gates, at three resolutions; V25 of the validation plan.
+TEST(DamBreak, FollowsMartinAndMoyce)
+{
+    std::array<double, 3> shift{};
+    int k = 0;
+    for (int n : {20, 40, 80}) {
+        SCOPED_TRACE(n);
+        const Fall f = fall(n);
+        EXPECT_LE(f.error, 0.025);
+        EXPECT_GE(f.speed, 1.2);
+        EXPECT_LE(f.speed, 1.4);
+        EXPECT_LE(f.energy_rise, 0.01);
+        EXPECT_LE(f.density, 0.02);
+        EXPECT_EQ(f.leaks, 0);
+        shift[std::size_t(k++)] = f.shift;
+    }
+    const auto [least, most] = std::minmax_element(shift.begin(), shift.end());
+    EXPECT_LE(*most - *least, 0.05); // one gate lag, whatever the resolution
+}
+
+} // namespace

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Still water in 2D against the exact profile of the compressible fluid (Adami, Hu & Adams 2012, section 6: H = 0.9 m,
+// g = 1 m/s^2, c0 = 10 sqrt(g H)), on walls of Adami.
+#include "models/results.hpp"
+
+#include "spate/measure/leaks.hpp"
+#include "spate/spate.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace spate;
+
+constexpr double H = 0.9, L = 2.2 * H, g = 1, rho0 = 1000; // height and length of the water [m], ...
+const double c0 = 10 * std::sqrt(g * H), unit = std::sqrt(H / g), sound = 4 * H / c0; // longest period of sound [s]
+const Tait eos{.rho0 = rho0, .c0 = c0};
+
+/// Pressure and depth of water at rest; p(depth) as in the validation plan, V19.
+double pressure_at(double depth) { return eos.pressure_of(eos.hydrostatic_density(g * std::max(0.0, depth))); }
+double depth_of(double p)
+{
+    const double B = eos.stiffness(), n = Tait::gamma;
+    return (std::pow(1 + p / B, (n - 1) / n) - 1) * n * B / ((n - 1) * rho0 * g);
+}
+const double surface = depth_of(rho0 * g * H); // of the water once it has given way under its own weight
+
+/// A particle bears the weight of the column above it, and is where it then is: the lattice, pressed together upright.
+/// On the lattice itself the mass in a volume, rho0, would not be the density that a particle carries.
+struct Settled {
+    void operator()(auto& p, std::size_t i) const
+    {
+        auto x = p.at(position, i);
+        const double weight = rho0 * g * (H - x[1]);
+        x[1] = surface - depth_of(weight);
+        p.put(position, i, x);
+        p.put(density, i, eos.density_of(weight));
+    }
+};
+
+/// \param n  spacings in the height of the water
+template <class Kernel, class Diffusion>
+auto still(int n, double smoothing, Diffusion diffusion)
+{
+    const double dx = H / n;
+    auto water = wcsph(Kernel{.h = smoothing * dx}, eos, Continuity<2>{}, diffusion, PressureForce<2>{},
+                       ArtificialViscosity{.alpha = 0.02}, Gravity<2>{{0, -g}});
+    Simulation s(water, RungeKutta2{}, Bce(Box<2>{{0, 0}, {L, 1.2 * H}}, dx, Adami{}, open(top)), Serial{});
+    s.fill(Box<2>{{0, 0}, {L, H}}, dx, Settled{});
+    return s;
+}
+/// Takes the first waves of sound out (dynamic relaxation, Cundall & Board 1988; it stands for the ramp of Adami, Hu &
+/// Adams): for one unit of time all velocity is dropped every quarter of the longest period.
+void calm(auto& s)
+{
+    for (int k = 1; k <= 10; ++k) {
+        s.run({.until = k * sound / 4, .cfl = 0.2});
+        for (std::size_t i = 0; i < s.particles().size(); ++i) s.particles().put(velocity, i, Vec<2, double>{0, 0});
+    }
+}
+
+/// The worst of several instants.
+struct Worst {
+    double l2 = 0;      // of pressure: sqrt(sum V (p - p_e)^2 / sum V p_e^2) [-]
+    double floor = 0;   // of pressure at any point of the floor, over that of the exact profile [-]
+    double kinetic = 0; // over rho0 g H^2 L [-]
+    double creep = 0;   // of the mean height of the uppermost row [spacings]
+    double leaks = 0;
+
+    void of(Worst const& w)
+    {
+        l2 = std::max(l2, w.l2), floor = std::max(floor, w.floor), kinetic = std::max(kinetic, w.kinetic);
+        creep = std::max(creep, w.creep), leaks = std::max(leaks, w.leaks);
+    }
+};
+/// Pressure on the floor by the extrapolation of Adami, Hu & Adams (2012, eq. 27), error at the worst point.
+double floor_error(auto const& s, double dx)
+{
+    auto const& p = s.particles();
+    auto const& kernel = s.physics().interaction.kernel;
+    double worst = 0;
+    for (double x = dx / 2; x < L; x += dx) {
+        double sum = 0, seen = 0;
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            const auto at = p.at(position, i);
+            const double q = std::hypot(at[0] - x, at[1]) / kernel.h;
+            if (q >= kernel.radius) continue;
+            sum += (p.at(pressure, i) + p.at(density, i) * g * at[1]) * kernel.f(q), seen += kernel.f(q);
+        }
+        worst = std::max(worst, std::abs(sum / seen / pressure_at(surface) - 1));
+    }
+    return worst;
+}
+Worst now(auto& s, double dx)
+{
+    s.refresh();
+    auto const& p = s.particles();
+    double error = 0, norm = 0, top = 0, n_top = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        const double z = p.at(position, i)[1], V = p.at(mass, i) / p.at(density, i);
+        const double p_e = pressure_at(surface - z), e = p.at(pressure, i) - p_e;
+        error += V * e * e, norm += V * p_e * p_e;
+        if (p.id()[i] >= p.size() - std::size_t(std::lround(L / dx))) top += z, n_top += 1; // filled row by row
+    }
+    return {std::sqrt(error / norm), floor_error(s, dx), s.energy().kinetic / (rho0 * g * H * H * L),
+            std::abs(top / n_top - (surface - depth_of(rho0 * g * dx / 2))) / dx, Leaks{dx}(s)};
+}
+/// Runs on and looks eight times in each period of sound.
+Worst watch(auto& s, double dx, double periods)
+{
+    const double start = s.time();
+    Worst w;
+    for (int k = 1; k <= int(8 * periods); ++k) {
+        s.run({.until = start + k * sound / 8, .cfl = 0.2});
+        w.of(now(s, dx));
+    }
+    return w;
+}
+void tell(std::string const& what, Worst const& w)
+{
+    std::printf("%s: L2 of pressure %.3f %%, floor %.3f %%, kinetic %.1e, creep %.4f dx, leaks %.0f\n", what.c_str(),
+                100 * w.l2, 100 * w.floor, w.kinetic, w.creep, w.leaks);
+}
+/// Particles from everywhere in the box, not two in a line.
+void save_profile(std::string const& name, auto& s)
+{
+    auto file = models::results(name, "z,p,exact");
+    auto const& p = s.particles();
+    for (std::size_t id = 0; id < p.size(); id += 7)
+        for (std::size_t i = 0; i < p.size(); ++i)
+            if (p.id()[i] == id)
+                file << p.at(position, i)[1] << ',' << p.at(pressure, i) << ','
+                     << pressure_at(surface - p.at(position, i)[1]) << '\n';
+}
+
+TEST(StillWater, ProfileIsThatOfTheCompressibleFluid)
+{
+    // dp/dz = rho g by the midpoint rule, and the excess over rho0 g H that the validation plan states at g H/c0^2 = 0.01
+    double p = 0;
+    constexpr int steps = 10000;
+    for (int k = 0; k < steps; ++k) {
+        const double half = p + eos.density_of(p) * g * H / steps / 2;
+        p += eos.density_of(half) * g * H / steps;
+    }
+    EXPECT_NEAR(pressure_at(H) / p, 1, 1e-9);
+    EXPECT_NEAR(pressure_at(H) / (rho0 * g * H) - 1, 0.004919, 1e-6);
+    EXPECT_NEAR(depth_of(pressure_at(H)), H, 1e-12);
+}
+
+/// Right after the calm, for two periods of sound.
+TEST(StillWater, HasTheExactPressure)
+{
+    constexpr int n = 50;
+    auto s = still<CubicSpline<2>>(n, 1.2, DensityDiffusion{.delta = 0.1});
+    calm(s);
+    const Worst w = watch(s, H / n, 2);
+    tell("H/dx 50, short", w);
+    EXPECT_LE(w.l2, 0.01);
+    EXPECT_LE(w.kinetic, 1e-6);
+    EXPECT_LE(w.creep, 0.5);
+    EXPECT_EQ(w.leaks, 0);
+}
+
+/// The gates of V19 for 20 sqrt(H/g). The floor is told only: the cubic spline at h = 1.2 dx on a lattice has a gradient
+/// too small by 0.92 % (kernel_lattice_constants.csv), so that water at rest presses harder by as much.
+TEST(LongStillWater, HasTheExactPressureForTwentyUnits)
+{
+    constexpr int n = 50;
+    auto s = still<CubicSpline<2>>(n, 1.2, DensityDiffusion{.delta = 0.1});
+    calm(s);
+    auto file = models::results("still_water_50.csv", "t_over_unit,l2,floor,kinetic,creep");
+    const double start = s.time();
+    Worst all;
+    for (int k = 1; k <= 20; ++k) {
+        s.run({.until = start + k * unit - sound, .cfl = 0.2});
+        const Worst w = watch(s, H / n, 1);
+        all.of(w);
+        file << k << ',' << w.l2 << ',' << w.floor << ',' << w.kinetic << ',' << w.creep << '\n';
+    }
+    tell("H/dx 50, cubic spline, 20 units", all);
+    save_profile("still_water_50_profile.csv", s);
+    EXPECT_LE(all.l2, 0.01);
+    EXPECT_LE(all.kinetic, 1e-6);
+    EXPECT_LE(all.creep, 0.5);
+    EXPECT_EQ(all.leaks, 0);
+}
+
+/// A kernel whose gradient is true on a lattice (to 0.09 %) meets the gate of the floor too.
+TEST(LongStillWater, HasTheExactPressureOnTheFloorWithWendlandC2)
+{
+    constexpr int n = 50;
+    auto s = still<WendlandC2<2>>(n, 2, DensityDiffusion{.delta = 0.1});
+    calm(s);
+    s.run({.until = s.time() + 20 * unit - sound, .cfl = 0.2});
+    const Worst w = watch(s, H / n, 1);
+    tell("H/dx 50, Wendland C2, after 20 units", w);
+    save_profile("still_water_50_profile_wendland_c2.csv", s);
+    EXPECT_LE(w.l2, 0.01);
+    EXPECT_LE(w.floor, 0.01);
+    EXPECT_LE(w.kinetic, 1e-6);
+    EXPECT_LE(w.creep, 0.5);
+    EXPECT_EQ(w.leaks, 0);
+}
+
+/// Diffusion of the dynamic part of density keeps the surface where it is; of the whole (Molteni & Colagrossi) it does not.
+template <class Diffusion>
+Worst after_many_steps(Diffusion diffusion)
+{
+    constexpr int n = 25;
+    auto s = still<CubicSpline<2>>(n, 1.2, diffusion);
+    calm(s);
+    s.run({.steps = 100000, .cfl = 0.2});
+    return watch(s, H / n, 1);
+}
+TEST(LongStillWater, DoesNotCreepIn100000Steps)
+{
+    const Worst fourtakas = after_many_steps(DensityDiffusion{.delta = 0.1});
+    const Worst molteni = after_many_steps(MolteniColagrossi{.delta = 0.1});
+    tell("H/dx 25, 100000 steps, Fourtakas", fourtakas);
+    tell("H/dx 25, 100000 steps, Molteni & Colagrossi", molteni);
+    EXPECT_LE(fourtakas.creep, 0.5);
+    EXPECT_LE(fourtakas.l2, 0.01);
+    EXPECT_GE(molteni.creep, 10 * fourtakas.creep);
+}
+
+} // namespace
