@@ -47,7 +47,7 @@ void cell_size(benchmark::State& state)
 BENCHMARK(cell_size)
     ->ArgNames({"cell", "finer", "skin_permille", "h_tenths"})
     ->ArgsProduct({{1, 2, 4, 8, 16}, {1, 2, 4, 8}, {30, 70, 120, 200}, {12, 13, 15}})
-    ->Iterations(2)
+    ->Iterations(3)
     ->Unit(benchmark::kMillisecond);
 
 } // namespace

@@ -44,8 +44,10 @@ inline Lanes if_less(Lanes a, Lanes b, Lanes yes, Lanes no)
 }
 [[gnu::always_inline]] inline void gather(double const* record, std::int32_t const* place, Lanes (&f)[8])
 {
-    double const* p[8];
-    for (int k = 0; k < 8; ++k) p[k] = record + std::uint32_t(place[k]);
+    auto at = [&](int k) {
+        return record + std::uint32_t(place[k]);
+    }; // one by one: g++ would make a vector of the places
+    double const* const p[8] = {at(0), at(1), at(2), at(3), at(4), at(5), at(6), at(7)};
     transpose(p, 0, f);
     transpose(p, 4, f + 4);
 }

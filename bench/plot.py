@@ -173,38 +173,32 @@ def cell_size(run):
         best = min((r for r in rows if r["h"] == h), key=lambda r: r["flow_ns"])
         print(f"least: {best['flow_ns']:.0f} at cell {best['cell']}, finer {best['finer']}, skin {best['skin']}\n")
 
-    figure, axes = plt.subplots(len(hs), 4, figsize=(17, 3.9 * len(hs)), layout="constrained", squeeze=False)
-    figure.get_layout_engine().set(rect=(0, 0.025, 1, 0.975))
-    shades = [plt.get_cmap("viridis")(0.9 * k / max(1, len(skins) - 1)) for k in range(len(skins))]
+    figure, axes = plt.subplots(len(hs), 4, figsize=(18, 4.1 * len(hs)), layout="constrained", squeeze=False)
+    figure.get_layout_engine().set(rect=(0, 0.025, 1, 0.975), w_pad=0.12, h_pad=0.08)
+    shades = [plt.get_cmap("viridis")(0.88 * k / max(1, len(skins) - 1)) for k in range(len(skins))]
+    over_cell = lambda counter, s, h: (cells, [at(counter, cell=c, finer=4, skin=s, h=h) for c in cells])
+    over_finer = lambda counter, s, h: (finer, [at(counter, cell=4, finer=f, skin=s, h=h) for f in finer])
+    panels = [
+        ("sweep_ns", over_cell, "sweep", "edge of a cell [ranges]"),
+        ("rebuild_ns", over_cell, "rebuild", "edge of a cell [ranges]"),
+        ("rebuild_ns", over_finer, "rebuild", "bins in a range along x"),
+        ("flow_ns", over_cell, "evaluation in a dam break*", "edge of a cell [ranges]"),
+    ]
     for row, h in zip(axes, hs):
-        per_cell = lambda counter: [[at(counter, cell=c, finer=4, skin=s, h=h) for c in cells] for s in skins]
-        for axis, counter, title in (
-            (row[0], "sweep_ns", "sweep"),
-            (row[1], "rebuild_ns", "rebuild"),
-            (row[2], "flow_ns", "evaluation with its part of a rebuild"),
-        ):
-            for s, colour, line in zip(skins, shades, per_cell(counter)):
-                axis.plot(cells, line, "o-", color=colour, label=f"skin {s:.2f}")
+        for axis, (counter, over, title, across) in zip(row, panels):
+            for s, colour in zip(skins, shades):
+                slots = at("slots_pair", cell=4, finer=4, skin=s, h=h)
+                x, y = over(counter, s, h)
+                axis.plot(x, y, "o-", color=colour, label=f"skin {s:.2f}: {slots:.2f} slots a pair")
             axis.set_xscale("log", base=2)
-            axis.set_xticks(cells, [str(c) for c in cells])
-            axis.set_xlabel("edge of a cell [ranges]")
-            axis.set_ylabel("ns a particle")
+            axis.set_xticks(x, [str(v) for v in x])
+            axis.set_xlabel(across)
             axis.set_ylim(bottom=0)
             axis.set_title(f"h/dx {h}: {title}")
-        row[0].legend(fontsize=10)
-        colours = (BLUE, ORANGE, GREEN, PURPLE)
-        for f, colour in zip(finer, colours):
-            row[3].plot(skins, [at("rebuild_ns", cell=4, finer=f, skin=s, h=h) for s in skins], "o-", color=colour, label=f"{f} bins a range")
-        row[3].set_xlabel("skin [of the range]")
-        row[3].set_ylabel("rebuild, ns a particle")
-        row[3].set_ylim(bottom=0)
-        row[3].set_title(f"h/dx {h}: shape of a bin")
-        row[3].legend(fontsize=10)
-        twin = row[3].twinx()
-        twin.plot(skins, [at("slots_pair", cell=4, finer=4, skin=s, h=h) for s in skins], "s--", color=GREY)
-        twin.set_ylabel("slots a pair (dashed)", color=GREY)
-        twin.set_ylim(bottom=1)
-        twin.grid(False)
+        row[0].set_ylabel("ns a particle")
+        row[0].legend(fontsize=10, loc="lower left")
+    figure.text(0.01, 0.022, "* sweep, and the part of a rebuild at the rate that the flow of a dam break asks for", fontsize=10)
+    figure.get_layout_engine().set(rect=(0, 0.045, 1, 0.955))
     save(figure, "cell_size", run.footer())
 
 

@@ -45,9 +45,13 @@ cpu=$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo 2> /dev/null | head 
 compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' build/bench/CMakeCache.txt | head -n 1)
 compiler="$(basename "$compiler") $("$compiler" -dumpfullversion 2> /dev/null || "$compiler" -dumpversion)"
 commit=$(git describe --always --dirty=+ 2> /dev/null) || commit=unknown
-echo "run.sh: running $executable" >&2
+log=build/bench/$name.log
+echo "run.sh: running $executable, log in $log" >&2
 "$executable" --benchmark_context="cpu=${cpu:-unknown},compiler=$compiler,commit=$commit" \
-    --benchmark_counters_tabular=true --benchmark_out="$json" --benchmark_out_format=json "$@" > "build/bench/$name.log"
+    --benchmark_out="$json" --benchmark_out_format=json "$@" > "$log" 2>&1 || {
+    tail -n 20 "$log" >&2
+    exit 1
+}
 sed -i '/"host_name"/d' "$json"
 echo "figures: $json"
 if [[ $name == term_deleted ]]; then

@@ -35,7 +35,7 @@ void dam_break_big(benchmark::State& state)
         state.counters["slots_pair"] = slots(dam.system()) / double(dam.system().pairs());
     }
 }
-BENCHMARK(dam_break_big<Double>)->ArgName("threads")->Arg(1)->Arg(2)->Iterations(3)->Unit(benchmark::kSecond);
+BENCHMARK(dam_break_big<Double>)->ArgName("threads")->Arg(1)->Arg(2)->Iterations(2)->Unit(benchmark::kSecond);
 BENCHMARK(dam_break_big<Float>)->ArgName("threads")->Arg(1)->Iterations(2)->Unit(benchmark::kSecond);
 
 /// Sweeps of the developed flow in double and in float, turn by turn with the same terms on packs and records from L1.
@@ -100,6 +100,6 @@ void dense_discs(benchmark::State& state)
     for (auto _ : state) run_on(cost, mixed, {.dt = 1e-4}, 300 * 1e-4);
     cost.say(state, threads);
 }
-BENCHMARK(dense_discs)->ArgName("threads")->Arg(1)->Arg(2)->Iterations(3)->Unit(benchmark::kSecond);
+BENCHMARK(dense_discs)->ArgName("threads")->Arg(1)->Arg(2)->Iterations(2)->Unit(benchmark::kSecond);
 
 } // namespace

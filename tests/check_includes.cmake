@@ -60,7 +60,7 @@ endforeach()
 
 if(violations)
     list(JOIN violations "\n  " text)
-    message(FATAL_ERROR "includes must point one way (docs/architecture.md):\n  ${text}")
+    message(FATAL_ERROR "includes must point one way (include/spate/concepts.hpp):\n  ${text}")
 endif()
 list(LENGTH headers count)
 message("includes of ${count} headers point one way")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// \brief spate: particle methods put together at compile time. Everything but what needs a library (io/, backend/mpi).
+/// \brief spate: particle methods put together at compile time. Everything but io/, which
+/// needs libraries, and backend/mpi.
 #pragma once
 
 #include "spate/backend/serial.hpp"
@@ -17,6 +18,11 @@
 #include "spate/integrator/symplectic_euler.hpp"
 #include "spate/kernel/cubic_spline.hpp"
 #include "spate/kernel/wendland_c2.hpp"
+#include "spate/measure/front.hpp"
+#include "spate/measure/gauge.hpp"
+#include "spate/measure/leaks.hpp"
+#include "spate/measure/probe.hpp"
+#include "spate/measure/wall_force.hpp"
 #include "spate/physics/dem.hpp"
 #include "spate/physics/wcsph.hpp"
 #include "spate/simulation.hpp"

@@ -89,8 +89,6 @@ TEST(Stop, IsCaughtAsOneKindAndKnownByName)
     EXPECT_EQ(name(EnergyRunaway(facts())), "EnergyRunaway");
     EXPECT_EQ(name(DtCollapse(facts())), "DtCollapse");
     EXPECT_EQ(name(IndexOverflow(facts())), "IndexOverflow");
-    EXPECT_EQ(name(NeighbourOverflow(facts())), "NeighbourOverflow");
-    EXPECT_EQ(name(EosDomain(facts())), "EosDomain");
 }
 
 } // namespace

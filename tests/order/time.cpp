@@ -39,4 +39,41 @@ TYPED_TEST(TimeOrder, OfSoundIsThatOfTheIntegrator)
     }
 }
 
+/// Positions, velocities and densities (over rho0) by id, after n steps of a wave of finite amplitude.
+template <class I>
+std::vector<double> state(int n, double T)
+{
+    auto sim = standing<1, 2, I>(CubicSpline<2>{1.3}, 0.1);
+    sim.run({.steps = n, .dt = T / n});
+    auto const& p = sim.particles();
+    std::vector<double> y(5 * p.size());
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        double* const mine = &y[5 * p.id()[i]];
+        for (int c = 0; c < 2; ++c) mine[c] = p.at(position, i)[c], mine[2 + c] = p.at(velocity, i)[c];
+        mine[4] = p.at(density, i) / rho0;
+    }
+    return y;
+}
+double distance(std::vector<double> const& a, std::vector<double> const& b)
+{
+    double sum = 0;
+    for (std::size_t k = 0; k < a.size(); ++k) {
+        const double d = k % 5 < 2 ? std::remainder(a[k] - b[k], k % 5 == 0 ? N : rows(1.3)) : a[k] - b[k]; // of images
+        sum += d * d;
+    }
+    return std::sqrt(sum);
+}
+// Particles move by half a spacing here: where a rate is taken matters, not only when.
+TYPED_TEST(TimeOrder, OfAWaveOfFiniteAmplitudeIsThatOfTheIntegrator)
+{
+    const double T = 0.3 * N;
+    std::vector<std::vector<double>> y;
+    for (int n = 64; n <= 1024; n *= 2) y.push_back(state<TypeParam>(n, T));
+    for (std::size_t k = 0; k + 2 < y.size(); ++k) {
+        const double order = std::log2(distance(y[k], y[k + 1]) / distance(y[k + 1], y[k + 2]));
+        EXPECT_NEAR(order, TypeParam::order, 0.1) << "level " << k;
+        this->RecordProperty("order_" + std::to_string(k), testing::PrintToString(order));
+    }
+}
+
 } // namespace

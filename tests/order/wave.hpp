@@ -22,21 +22,21 @@ constexpr double k0 = 2 * std::numbers::pi / N;
 /// Rows across the wave: about the shortest periodic box that neighbour lists with a skin of 1/4 allow.
 inline int rows(double h) { return int(std::ceil(2 * 2 * h * 1.25)); }
 
-/// A fluid at rest on the lattice without viscosity, moving as v = eps c0 khat sin(k . x) at first.
+/// A fluid at rest on the lattice without viscosity, moving as v = amplitude c0 khat sin(k . x) at first.
 /// \tparam Axes  1: k along x; 2: along the diagonal of x and y
 template <int Axes, int Sigma, class Integrator, class K>
-auto standing(K kernel)
+auto standing(K kernel, double amplitude = eps)
 {
     constexpr int dim = K::dim;
     Box<dim> box{{}, {}};
     for (int c = 0; c < dim; ++c) box.hi[c] = c < Axes ? N : rows(kernel.h);
     auto fluid = wcsph(kernel, LinearEos{.rho0 = rho0, .c0 = 1}, Continuity<Sigma>{}, PressureForce<Sigma>{});
     Simulation sim(fluid, Integrator{}, Periodic(box), Serial{}, Double{}, NoWatch{});
-    sim.fill(box, 1, [](auto& p, std::size_t i) {
+    sim.fill(box, 1, [&](auto& p, std::size_t i) {
         double phase = 0;
         for (int c = 0; c < Axes; ++c) phase += k0 * p.at(position, i)[c];
         Vec<dim, double> v{};
-        for (int c = 0; c < Axes; ++c) v[c] = eps / std::sqrt(Axes) * std::sin(phase);
+        for (int c = 0; c < Axes; ++c) v[c] = amplitude / std::sqrt(Axes) * std::sin(phase);
         p.put(velocity, i, v);
     });
     return sim;

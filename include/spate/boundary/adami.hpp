@@ -57,7 +57,10 @@ struct AdamiState {
 
 namespace detail {
 template <class T>
-concept GivesDensity = requires(T const t) { t.density_of(1.0); };
+concept GivesDensity = requires(T const t)
+{
+    t.density_of(1.0);
+};
 template <class Terms>
 inline constexpr bool any_gives_density = false;
 template <class... T>

@@ -32,10 +32,11 @@ struct Box {
 
 /// A face of a box: the lower or the upper end of an axis; the last axis points up.
 struct Face {
-    int axis; ///< 0, 1, 2; -1: the last axis of the space
+    int axis; ///< 0, 1, 2; -1: the last axis of the space; -2: the middle one, in 3D only
     bool upper;
 };
-inline constexpr Face left{0, false}, right{0, true}, front{1, false}, back{1, true}, bottom{-1, false}, top{-1, true};
+inline constexpr Face left{0, false}, right{0, true}, front{-2, false}, back{-2, true}, bottom{-1, false},
+    top{-1, true};
 inline constexpr int x_axis = 0, y_axis = 1, z_axis = 2;
 
 /// What ends space at a face.
@@ -50,7 +51,8 @@ struct Edges {
     [[nodiscard]] Edge at(int axis, bool upper) const { return face[std::size_t(2 * axis + upper)]; }
     void set(Face f, Edge e)
     {
-        const int axis = f.axis < 0 ? Dim - 1 : f.axis;
+        if (f.axis == -2 && Dim != 3) throw BadInput("face", "front or back", "left, right, bottom or top below 3D");
+        const int axis = f.axis == -2 ? 1 : f.axis == -1 ? Dim - 1 : f.axis;
         if (axis >= Dim) throw BadInput("face", "axis " + std::to_string(axis), "an axis of the space");
         face[std::size_t(2 * axis + f.upper)] = e;
     }

@@ -111,15 +111,5 @@ struct IndexOverflow : Stop {
                "a particle is too far from the origin for the cell index: bound the domain")
     {}
 };
-struct NeighbourOverflow : Stop {
-    explicit NeighbourOverflow(StopFacts f)
-        : Stop("NeighbourOverflow", std::move(f), "too many particles in one place: look at the start of the run")
-    {}
-};
-struct EosDomain : Stop {
-    explicit EosDomain(StopFacts f)
-        : Stop("EosDomain", std::move(f), "the equation of state has no density for this pressure: take a smaller dt")
-    {}
-};
 
 } // namespace spate

@@ -75,7 +75,10 @@ template <class... F>
 std::string to_string(Fields<F...> set)
 {
     std::string text;
-    for (auto name : names(set)) text += (text.empty() ? "" : " ") + std::string(name);
+    for (auto name : names(set)) {
+        if (!text.empty()) text += ' ';
+        text += name;
+    }
     return text;
 }
 

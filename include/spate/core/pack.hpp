@@ -53,6 +53,29 @@ void only_read()
 }
 } // namespace detail
 
+namespace detail {
+/// The lanes in which a comparison of packs holds. Not a bool: on AVX-512 a mask is an integer, and `if`
+/// would take it.
+template <class M>
+struct LaneMask {
+    M m;
+    template <class U = void>
+    explicit operator bool() const
+    {
+        static_assert(sizeof(U*) == 0, "spate: a condition on packs is where(condition, a, b), not if, ?: or &&");
+        return false;
+    }
+    [[gnu::always_inline]] friend LaneMask operator&(LaneMask const& a, LaneMask const& b) { return {a.m & b.m}; }
+    [[gnu::always_inline]] friend LaneMask operator|(LaneMask const& a, LaneMask const& b) { return {a.m | b.m}; }
+};
+template <class M>
+[[gnu::always_inline]] inline auto mask(M m)
+{
+    if constexpr (std::same_as<M, bool>) return m;
+    else return LaneMask<M>{m};
+}
+} // namespace detail
+
 /// Lanes of a SIMD register (or one scalar) with the operators of a number. Any arithmetic constant converts to it, so
 /// that a term reads the same in double and in float.
 template <class B>
@@ -84,11 +107,11 @@ struct Lanes {
     void operator+=(Lanes const&) const { detail::only_read<B>(); }
     void operator-=(Lanes const&) const { detail::only_read<B>(); }
     void operator*=(Lanes const&) const { detail::only_read<B>(); }
-    [[gnu::always_inline]] friend auto operator<(Lanes const& x, Lanes const& y) { return x.b < y.b; }
-    [[gnu::always_inline]] friend auto operator>(Lanes const& x, Lanes const& y) { return x.b > y.b; }
-    [[gnu::always_inline]] friend auto operator<=(Lanes const& x, Lanes const& y) { return x.b <= y.b; }
-    [[gnu::always_inline]] friend auto operator>=(Lanes const& x, Lanes const& y) { return x.b >= y.b; }
-    [[gnu::always_inline]] friend auto operator==(Lanes const& x, Lanes const& y) { return x.b == y.b; }
+    [[gnu::always_inline]] friend auto operator<(Lanes const& x, Lanes const& y) { return detail::mask(x.b < y.b); }
+    [[gnu::always_inline]] friend auto operator>(Lanes const& x, Lanes const& y) { return detail::mask(x.b > y.b); }
+    [[gnu::always_inline]] friend auto operator<=(Lanes const& x, Lanes const& y) { return detail::mask(x.b <= y.b); }
+    [[gnu::always_inline]] friend auto operator>=(Lanes const& x, Lanes const& y) { return detail::mask(x.b >= y.b); }
+    [[gnu::always_inline]] friend auto operator==(Lanes const& x, Lanes const& y) { return detail::mask(x.b == y.b); }
 };
 
 namespace detail {
@@ -130,7 +153,7 @@ template <class B>
 [[gnu::always_inline]] inline Lanes<B> where(auto const& m, Lanes<B> const& a, std::type_identity_t<Lanes<B>> const& b)
 {
     if constexpr (std::is_arithmetic_v<B>) return m ? a : b;
-    else return xsimd::select(m, a.b, b.b);
+    else return xsimd::select(m.m, a.b, b.b);
 }
 [[gnu::always_inline]] inline double max(double a, double b) { return a > b ? a : b; }
 template <class B>
@@ -146,14 +169,14 @@ template <class B>
     if constexpr (std::is_arithmetic_v<B>) return where(a < b, a, b);
     else return xsimd::min(a.b, b.b);
 }
-[[gnu::always_inline]] inline double abs(double a) { return std::fabs(a); }
+using std::abs; // not one of our own: beside `using namespace spate` a plain abs(x) would be ambiguous
 template <class B>
 [[gnu::always_inline]] inline Lanes<B> abs(Lanes<B> const& a)
 {
     if constexpr (std::is_arithmetic_v<B>) return std::fabs(a.b);
     else return xsimd::abs(a.b);
 }
-[[gnu::always_inline]] inline double sqrt(double a) { return std::sqrt(a); }
+using std::sqrt;
 template <class B>
 [[gnu::always_inline]] inline Lanes<B> sqrt(Lanes<B> const& a)
 {
@@ -161,10 +184,10 @@ template <class B>
     else return xsimd::sqrt(a.b);
 }
 [[gnu::always_inline]] inline bool any(bool m) { return m; }
-template <class T, class A>
-[[gnu::always_inline]] inline bool any(xsimd::batch_bool<T, A> const& m)
+template <class M>
+[[gnu::always_inline]] inline bool any(detail::LaneMask<M> const& m)
 {
-    return xsimd::any(m);
+    return xsimd::any(m.m);
 }
 
 /// V from width<V> values at p, of any alignment.

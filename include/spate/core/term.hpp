@@ -170,6 +170,21 @@ struct ParticleView {
         [[gnu::always_inline]] operator X() const { return particles.template load_at<V>(F{}, i); }
         [[gnu::always_inline]] void operator=(X const& v) const { particles.template store_at<V>(F{}, i, v); }
         template <class Y>
+        [[gnu::always_inline]] friend auto operator*(Y const& y, Reference const& r)
+        {
+            return y * X(r);
+        }
+        template <class Y>
+        [[gnu::always_inline]] friend auto operator+(Reference const& r, Y const& y)
+        {
+            return X(r) + y;
+        }
+        template <class Y>
+        [[gnu::always_inline]] friend auto operator-(Reference const& r, Y const& y)
+        {
+            return X(r) - y;
+        }
+        template <class Y>
         [[gnu::always_inline]] void operator+=(Y const& v) const
         {
             X x = particles.template load_at<V>(F{}, i);

@@ -54,8 +54,7 @@ struct Vec {
     [[gnu::always_inline]] Vec& operator+=(Vec const& b) { return *this = *this + b; }
     [[gnu::always_inline]] Vec& operator-=(Vec const& b) { return *this = *this - b; }
     template <class U>
-        requires(std::same_as<U, Vec>)
-    void operator=(U const&) const { detail::only_read<U>(); }
+    requires(std::same_as<U, Vec>) void operator=(U const&) const { detail::only_read<U>(); }
     void operator+=(Vec const&) const { detail::only_read<V>(); }
     void operator-=(Vec const&) const { detail::only_read<V>(); }
     /// A constant vector, the same in all lanes.

@@ -215,28 +215,22 @@ public:
         if constexpr (species == 2) wanted[1] = rates_of<1>(Asked{});
         return planner.plan(wanted);
     }
-    /// The plan that brings derived fields (pressure, ...) up to date, without rates.
+    /// The plan that brings what terms derive (pressure, ..., sums that are no rate) up to date.
     static constexpr auto refresh_plan()
     {
         std::array<Mask, std::size_t(species)> wanted{};
-        [&]<class... T>(std::tuple<T...> const*) {
-            int k = 0;
-            auto one = [&]<class X>() {
-                for (int s = 0; s < species; ++s)
-                    if (planner.on(k, s) && spate::when<X>() == When::evaluation)
-                        wanted[std::size_t(s)] |= mask(writes<X>());
-                ++k;
-            };
-            (one.template operator()<T>(), ...);
-        }(static_cast<Terms const*>(nullptr));
+        wanted[0] = made<0> & ~rates_of<0>(evolving<0>());
+        if constexpr (species == 2) wanted[1] = made<1> & ~rates_of<1>(evolving<1>());
         return planner.plan(wanted);
     }
-    /// The plan of the terms of a phase.
-    template <When w>
+    /// The plan of term k of a phase.
+    template <When w, int k>
     static constexpr auto phase_plan()
     {
+        constexpr TermFacts f = planner.term[std::size_t(k)];
         std::array<Mask, std::size_t(species)> wanted{};
-        for (int s = 0; s < species; ++s) wanted[std::size_t(s)] = planner.made(s, w);
+        for (int s = 0; s < species; ++s)
+            if (planner.on(k, s)) wanted[std::size_t(s)] = f.writes | f.adds;
         return planner.plan(wanted, w);
     }
 

@@ -42,6 +42,7 @@ struct Plan {
     static constexpr int capacity = 4 * (Terms + 1) * (Species + 1);
     std::array<Stage, std::size_t(capacity)> stage{};
     int count = 0;
+    bool complete = true; ///< every needed term runs; false: terms wait for each other's fields
     constexpr void add(Stage s) { stage[std::size_t(count++)] = s; }
     [[nodiscard]] constexpr int sweeps() const
     {
@@ -90,7 +91,7 @@ struct Planner {
         return -1;
     }
 
-    /// Terms of phase w, for each species, that are needed to produce the wanted fields of each species.
+    /// Terms of evaluations and of phase w, for each species, that are needed to produce the wanted fields of each.
     [[nodiscard]] constexpr std::array<Mask, std::size_t(Species)> needed(std::array<Mask, std::size_t(Species)> wanted,
                                                                           When w) const
     {
@@ -101,7 +102,7 @@ struct Planner {
                 for (int s = 0; s < Species; ++s) {
                     const auto& f = term[std::size_t(t)];
                     auto& mine = terms[std::size_t(s)];
-                    if (!on(t, s) || f.when != w || (mine & bit(t)) != 0) continue;
+                    if (!on(t, s) || (f.when != w && f.when != When::evaluation) || (mine & bit(t)) != 0) continue;
                     if (((f.writes | f.adds) & wanted[std::size_t(s)]) == 0) continue;
                     mine |= bit(t);
                     more = true;
@@ -127,6 +128,7 @@ struct Planner {
                     there[std::size_t(s)] &= ~(term[std::size_t(t)].writes | term[std::size_t(t)].adds);
         }
         for (bool more = true; more;) more = passes(p, pending, there, fresh) || sweeps(p, pending, there, fresh);
+        for (Mask left : pending) p.complete = p.complete && left == 0;
         return p;
     }
 
@@ -136,7 +138,8 @@ private:
     [[nodiscard]] constexpr bool ready(int t, int s, Masks const& there) const
     {
         const auto& f = term[std::size_t(t)];
-        if ((f.reads_i & ~there[std::size_t(s)]) != 0) return false;
+        const Mask own = f.pair ? 0 : f.writes & species[std::size_t(s)].given; // it may change what it reads
+        if ((f.reads_i & ~(there[std::size_t(s)] | own)) != 0) return false;
         for (int q = 0; q < Species; ++q)
             if (from(t, s, q) && (f.reads_j & ~there[std::size_t(q)]) != 0) return false;
         return true;

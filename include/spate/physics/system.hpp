@@ -22,7 +22,7 @@ struct Extremes {
     std::array<double, 3> least_move{}, most_move{};         ///< of x - x_build by component [m]
     std::array<double, 3> least_velocity{}, most_velocity{}; ///< by component [m/s]
     double least_density = std::numeric_limits<double>::infinity(), most_density = 0; ///< [kg/m^3]
-    double poison = 0; ///< 0, or NaN as soon as any field of any particle is not finite
+    double poison = 0; ///< 0, or NaN as soon as an evolving field or an acceleration is not finite
 
     void operator|=(Extremes const& b)
     {
@@ -190,11 +190,12 @@ public:
         static constexpr auto plan = M::refresh_plan();
         run<plan>();
     }
+    /// Runs the terms of a phase that are due at this step; `current` brings the lists up to date before a sweep.
     template <When w>
-    void phase()
+    void phase(std::int64_t step, auto const& current)
     {
-        static constexpr auto plan = M::template phase_plan<w>();
-        run<plan>();
+        [&]<std::size_t... k>(std::index_sequence<k...>) { (phase_term<w, int(k)>(step, current), ...); }
+        (std::make_index_sequence<std::size_t(M::terms)>{});
     }
     /// Fields that evolve, of one kind: all that an integrator advances.
     template <Kind kind>
@@ -354,7 +355,8 @@ public:
         });
         each_species([&](auto s) {
             each_species([&](auto q) {
-                if constexpr (kept_values < s(), q() >> 0) {
+                constexpr int values = kept_values<s(), q()>;
+                if constexpr (values > 0) {
                     PairMemory<T, kept_values<s(), q()>> now;
                     now.take(lists<s(), q()>(), memory_[std::size_t(s() * species_count + q())],
                              species<s()>().particles, species<s()>().bins, species<q()>().particles,
@@ -458,9 +460,23 @@ private:
         return m;
     }
 
+    template <When w, int k>
+    void phase_term(std::int64_t step, auto const& current)
+    {
+        if constexpr (M::planner.term[std::size_t(k)].when == w) {
+            static constexpr auto plan = M::template phase_plan<w, k>();
+            auto const& term = std::get<std::size_t(k)>(terms_);
+            if constexpr (requires { term.every; })
+                if (step % term.every != 0) return;
+            if constexpr (plan.sweeps() > 0) current();
+            run<plan>();
+        }
+    }
     template <auto const& plan>
     void run()
     {
+        static_assert(plan.complete,
+                      "spate: terms wait for each other's fields; let one of them write a field of its own");
         [&]<std::size_t... k>(std::index_sequence<k...>) { (stage<plan.stage[k]>(), ...); }
         (std::make_index_sequence<std::size_t(plan.count)>{});
     }
@@ -591,7 +607,8 @@ private:
     {
         each_species([&](auto s) {
             each_species([&](auto q) {
-                if constexpr (kept_values < s(), q() >> 0) {
+                constexpr int values = kept_values<s(), q()>;
+                if constexpr (values > 0) {
                     auto& aside = std::get<std::size_t(s() * species_count + q())>(aside_);
                     f(s, q, aside, memory_[std::size_t(s() * species_count + q())]);
                 }
@@ -678,6 +695,11 @@ private:
                 const V n2 = p.template load_at<V>(acceleration, i).squaredNorm();
                 a2 = max(n2, a2), poison += V(0) * n2;
             }
+            for_each(M::template evolving<0>() - Fields{position, velocity, density}, [&](auto f) {
+                const auto value = p.template load_at<V>(f, i);
+                if constexpr (decltype(f)::rank == 0) poison += V(0) * value;
+                else poison += V(0) * value.squaredNorm();
+            });
             if constexpr (Q::template has<Density>) {
                 const V rho = p.template load_at<V>(density, i);
                 least = min(rho, least), most = max(rho, most), poison += V(0) * rho;

@@ -41,7 +41,7 @@ ModelConstants<Dim> constants_of(T const&... term)
             m.rho0 = t.rho0, m.c0 = t.c0;
             if constexpr (requires { X::gamma; }) m.curvature = X::gamma - 1;
         }
-        if constexpr (std::same_as<X, Gravity<Dim>>) m.g = t.g;
+        if constexpr (std::same_as<X, Gravity<Dim>>) m.g += t.g;
     };
     (look(term), ...);
     return m;

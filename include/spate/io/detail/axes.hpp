@@ -22,7 +22,7 @@
 namespace spate::io::detail {
 
 struct Box {
-    Eigen::Vector3d low, high;  ///< [m]
+    Eigen::Vector3d low, high; ///< [m]
 
     Eigen::Vector3d centre() const { return 0.5 * (low + high); }
     Eigen::Vector3d corner(int k) const
@@ -35,8 +35,8 @@ inline constexpr Rgb pale{190, 190, 190};
 
 struct Edge {
     int axis;
-    Eigen::Vector3d from, to;  ///< along the axis, from its low end  [m]
-    bool back;                 ///< behind the particles
+    Eigen::Vector3d from, to; ///< along the axis, from its low end  [m]
+    bool back;                ///< behind the particles
 };
 
 /// Nine of the twelve: the three that meet before the particles would cross them.
@@ -150,4 +150,4 @@ private:
     std::vector<Edge> edges_;
 };
 
-}  // namespace spate::io::detail
+} // namespace spate::io::detail

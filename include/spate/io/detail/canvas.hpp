@@ -16,7 +16,7 @@
 
 namespace spate::io::detail {
 
-using Point = Eigen::Vector2d;  ///< x to the right, y down, (0, 0) is the upper left corner [pixels]
+using Point = Eigen::Vector2d; ///< x to the right, y down, (0, 0) is the upper left corner [pixels]
 
 inline constexpr Rgb ink{40, 40, 40};
 
@@ -53,7 +53,7 @@ public:
         const Point low = a.cwiseMin(b).array() - thickness - 1;
         const Point high = a.cwiseMax(b).array() + thickness + 1;
         const Point along = b - a;
-        const double length2 = std::max(along.squaredNorm(), 1e-12);  // a point is a line, too
+        const double length2 = std::max(along.squaredNorm(), 1e-12); // a point is a line, too
         for (int y = std::max(0, static_cast<int>(low.y())); y < std::min<double>(height_, high.y()); ++y)
             for (int x = std::max(0, static_cast<int>(low.x())); x < std::min<double>(width_, high.x()); ++x) {
                 const Point p(x + 0.5, y + 0.5);
@@ -103,4 +103,4 @@ private:
     std::vector<Rgb> pixels_;
 };
 
-}  // namespace spate::io::detail
+} // namespace spate::io::detail

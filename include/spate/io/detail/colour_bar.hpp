@@ -14,12 +14,12 @@
 namespace spate::io::detail {
 
 struct ColourBar {
-    double low, high;  ///< values at the ends
+    double low, high; ///< values at the ends
     std::string name, unit;
     int font;
     bool lying;
-    Point corner = Point::Zero();  ///< upper left  [pixels]
-    double length = 0;             ///< [pixels]
+    Point corner = Point::Zero(); ///< upper left  [pixels]
+    double length = 0;            ///< [pixels]
 
     double letter() const { return glyph_advance * font; }
     double line() const { return (glyph_height + 3) * font; }
@@ -68,4 +68,4 @@ private:
     }
 };
 
-}  // namespace spate::io::detail
+} // namespace spate::io::detail

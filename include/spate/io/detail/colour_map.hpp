@@ -51,4 +51,4 @@ inline Rgb viridis(double fraction)
     return mix(knots[k], knots[k + 1], place - static_cast<double>(k));
 }
 
-}  // namespace spate::io::detail
+} // namespace spate::io::detail

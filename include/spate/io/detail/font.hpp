@@ -15,8 +15,8 @@ namespace spate::io::detail {
 /// Five columns from the left; bit 0 is the top row, bit 7 the descender.
 using Glyph = std::array<std::uint8_t, 5>;
 
-inline constexpr int glyph_height = 7;   ///< above the base line [dots]
-inline constexpr int glyph_advance = 6;  ///< from one letter to the next [dots]
+inline constexpr int glyph_height = 7;  ///< above the base line [dots]
+inline constexpr int glyph_advance = 6; ///< from one letter to the next [dots]
 
 // clang-format off
 inline constexpr std::array<Glyph, 95> ascii_glyphs{{
@@ -57,12 +57,12 @@ inline constexpr std::array<Glyph, 95> ascii_glyphs{{
 inline Glyph glyph(char32_t letter)
 {
     switch (letter) {
-    case U'\u00B0': return {0x00, 0x06, 0x09, 0x09, 0x06};  // degree
-    case U'\u00B2': return {0x00, 0x19, 0x15, 0x12, 0x00};  // square
-    case U'\u00B3': return {0x00, 0x11, 0x15, 0x0A, 0x00};  // cube
-    case U'\u00B5':                                         // micro
+    case U'\u00B0': return {0x00, 0x06, 0x09, 0x09, 0x06}; // degree
+    case U'\u00B2': return {0x00, 0x19, 0x15, 0x12, 0x00}; // square
+    case U'\u00B3': return {0x00, 0x11, 0x15, 0x0A, 0x00}; // cube
+    case U'\u00B5':                                        // micro
     case U'\u03BC': return {0xFC, 0x20, 0x20, 0x10, 0x3C};
-    case U'\u00B7': return {0x00, 0x00, 0x08, 0x00, 0x00};  // middle dot
+    case U'\u00B7': return {0x00, 0x00, 0x08, 0x00, 0x00}; // middle dot
     default: break;
     }
     constexpr Glyph unknown{0x7F, 0x41, 0x41, 0x41, 0x7F};
@@ -82,4 +82,4 @@ inline std::vector<Glyph> glyphs(std::string_view text)
     return out;
 }
 
-}  // namespace spate::io::detail
+} // namespace spate::io::detail

@@ -89,7 +89,7 @@ public:
         const int rank = components == 1 ? 1 : 2;
         const Hdf5Space space(check(H5Screate_simple(rank, shape.data(), nullptr), name));
         const Hdf5Properties creation(check(H5Pcreate(H5P_DATASET_CREATE), name));
-        check(H5Pset_obj_track_times(creation, false), name);  // same cloud, same bytes
+        check(H5Pset_obj_track_times(creation, false), name); // same cloud, same bytes
         if (compressed && !values.empty()) compress(creation, rank, shape, name);
         const hid_t type = hdf5_type(T{});
         const Hdf5Dataset set(
@@ -162,4 +162,4 @@ private:
     Hdf5File file_;
 };
 
-}  // namespace spate::io::detail
+} // namespace spate::io::detail

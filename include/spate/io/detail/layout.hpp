@@ -21,7 +21,7 @@ namespace spate::io::detail {
 struct Layout {
     View view;
     ColourBar bar;
-    double title_base;  ///< lower edge of the title  [pixels]
+    double title_base; ///< lower edge of the title  [pixels]
 };
 
 /// Extent of the box on the screen [m].
@@ -87,4 +87,4 @@ inline Layout lay_out(Canvas const& sheet, Box const& box, Eigen::Matrix3d const
     return below.view.scale > 1.05 * beside.view.scale ? below : beside;
 }
 
-}  // namespace spate::io::detail
+} // namespace spate::io::detail

@@ -32,4 +32,4 @@ inline std::vector<std::byte> png_bytes(std::filesystem::path const& file, Canva
     return bytes;
 }
 
-}  // namespace spate::io::detail
+} // namespace spate::io::detail

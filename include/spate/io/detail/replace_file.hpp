@@ -84,4 +84,4 @@ inline void replace_file(std::filesystem::path const& file, std::string_view tex
     replace_file(file, std::as_bytes(std::span(text)));
 }
 
-}  // namespace spate::io::detail
+} // namespace spate::io::detail

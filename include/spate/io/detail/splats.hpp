@@ -18,15 +18,15 @@
 namespace spate::io::detail {
 
 struct Splat {
-    Eigen::Vector3d at;  ///< right, down, toward the viewer  [pixels]
-    double radius;       ///< [pixels]
+    Eigen::Vector3d at; ///< right, down, toward the viewer  [pixels]
+    double radius;      ///< [pixels]
     Rgb colour;
 };
 
 /// The foremost splat at each sample.
 class SplatLayer {
 public:
-    static constexpr int samples = 2;  ///< a pixel and direction
+    static constexpr int samples = 2; ///< a pixel and direction
 
     SplatLayer(int width, int height)
         : width_(samples * width), height_(samples * height),
@@ -81,8 +81,8 @@ private:
 };
 
 struct Light {
-    bool flat;         ///< discs with a thin rim instead of shaded spheres
-    double far, near;  ///< depths between which colours darken to the back  [pixels]
+    bool flat;        ///< discs with a thin rim instead of shaded spheres
+    double far, near; ///< depths between which colours darken to the back  [pixels]
 
     /// x, y: the sample, in samples.
     Rgb operator()(SplatLayer const& layer, int x, int y) const
@@ -118,4 +118,4 @@ inline void paint(Canvas& canvas, SplatLayer const& solid, SplatLayer const& gla
         }
 }
 
-}  // namespace spate::io::detail
+} // namespace spate::io::detail

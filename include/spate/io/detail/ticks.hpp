@@ -17,7 +17,7 @@
 namespace spate::io::detail {
 
 struct Ticks {
-    int exponent = 0;  ///< a label times 10^exponent is the value
+    int exponent = 0; ///< a label times 10^exponent is the value
     std::vector<double> values;
     std::vector<std::string> labels;
 };
@@ -84,4 +84,4 @@ inline std::string with_unit(std::string const& name, std::string const& unit, i
     return inside.empty() ? name : name + (name.empty() ? "[" : " [") + inside + "]";
 }
 
-}  // namespace spate::io::detail
+} // namespace spate::io::detail

@@ -16,10 +16,10 @@
 namespace spate::io::detail {
 
 struct View {
-    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< rows: to the right, up, toward the viewer
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();    ///< what lies in the middle  [m]
-    double scale = 1;                                    ///< [pixels/m]
-    Point middle = Point::Zero();                        ///< where it lies  [pixels]
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity(); ///< rows: to the right, up, toward the viewer
+    Eigen::Vector3d centre = Eigen::Vector3d::Zero();   ///< what lies in the middle  [m]
+    double scale = 1;                                   ///< [pixels/m]
+    Point middle = Point::Zero();                       ///< where it lies  [pixels]
 
     /// Pixel right, pixel down, depth toward the viewer [pixels].
     Eigen::Vector3d operator()(Eigen::Vector3d const& x) const
@@ -47,4 +47,4 @@ inline Eigen::Matrix3d turn_toward(std::array<double, 3> const& seen_from)
     return turn;
 }
 
-}  // namespace spate::io::detail
+} // namespace spate::io::detail

@@ -68,7 +68,8 @@ WorstWave worst_wave(P const& physics, double spacing, double dt, double (*growt
         for (int s = 1; s <= samples; ++s) {
             Vec<dim, double> e{};
             for (int c = 0; c < diagonal; ++c) e[c] = 1 / std::sqrt(double(diagonal));
-            const double k = std::numbers::pi / spacing * std::sqrt(double(diagonal)) * s / samples; // to the zone's edge
+            const double k =
+                std::numbers::pi / spacing * std::sqrt(double(diagonal)) * s / samples; // to the zone's edge
             double k_eff = 0, decay = 0;
             detail::each_lattice_point<dim>(spacing, physics.interaction.range(), [&](Vec<dim, double> const& x) {
                 const double r2 = x.squaredNorm(), xe = x.dot(e);
