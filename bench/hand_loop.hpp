@@ -4,13 +4,10 @@
 /// the cubic spline in 3D, on records (x, y, z, u, v, w, density, pressure). The yardstick of the engine's sweep.
 #pragma once
 
+#include <spate/core/pack.hpp> // for xsimd and intrinsics, and for its word with g++ about false warnings of theirs
+
 #include <cstddef>
 #include <cstdint>
-
-#include <xsimd/xsimd.hpp>
-#if defined(__AVX512F__)
-#include <immintrin.h>
-#endif
 
 namespace hand {
 

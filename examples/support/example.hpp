@@ -24,6 +24,7 @@
 #include "support/composition.hpp"
 #include "support/interrupt.hpp"
 #include "support/options.hpp"
+#include "support/passive.hpp"
 #include "support/pictures.hpp"
 #include "support/summary.hpp"
 
@@ -41,6 +42,7 @@ public:
     /// 0 ok, 2 bad input, 3 a typed stop, 4 an output could not be written, 128 + signal.
     int main(int argc, char** argv, auto const& scene)
     {
+        wait_passively(argv);
         try {
             line_.parse(argc, argv);
             catch_interrupts();

@@ -55,6 +55,8 @@
 /// where.
 #pragma once
 
+#include "spate/backend/backend.hpp"
+#include "spate/boundary/boundary.hpp"
 #include "spate/core/field.hpp"
 #include "spate/core/fields.hpp"
 #include "spate/core/term.hpp"

@@ -3,7 +3,9 @@
 /// \brief A scene: physics, integrator, boundary and backend, put together; filled with particles and run.
 #pragma once
 
+#include "spate/backend/backend.hpp"
 #include "spate/backend/serial.hpp"
+#include "spate/boundary/boundary.hpp"
 #include "spate/integrator/integrator.hpp"
 #include "spate/measure/watch.hpp"
 #include "spate/physics/sph/stability.hpp"
@@ -49,19 +51,25 @@ constexpr Neighbours neighbours_for()
     else return {};
 }
 
-template <class P, class I, class B, class Backend = Serial, class Precision = Double, class W = Watch>
+template <class P, class I, class B, class Workers = Serial, class Precision = Double, class W = Watch>
 class Simulation {
     static_assert(Integrator<I>, "spate: the second argument of a Simulation is an integrator, such as RungeKutta2{}");
+    static_assert(Boundary<B, P::dim>,
+                  "spate: the third argument of a Simulation is a boundary of the physics' dimension, "
+                  "such as Open{}; see boundary/boundary.hpp");
+    static_assert(spate::Backend<Workers>,
+                  "spate: the fourth argument of a Simulation is a backend, such as Threads{}; "
+                  "see backend/backend.hpp");
     static_assert(
         std::same_as<std::remove_cvref_t<decltype(std::declval<B const&>().template edges<P::dim>())>, Edges<P::dim>>,
         "spate: the boundary has another number of dimensions than the kernel or the grains");
 
 public:
     static constexpr int dim = P::dim;
-    using Engine = System<P, B, Backend, Precision>;
+    using Engine = System<P, B, Workers, Precision>;
     using Point = Vec<dim, double>;
 
-    Simulation(P physics, I integrator, B boundary, Backend backend = {}, Precision = {}, W watch = {},
+    Simulation(P physics, I integrator, B boundary, Workers backend = {}, Precision = {}, W watch = {},
                Neighbours neighbours = neighbours_for<typename Engine::M::Interaction>())
         : integrator_(integrator), watch_(watch),
           system_(checked(physics, boundary, backend, neighbours, watch), boundary, backend, neighbours, I::saves),
@@ -255,7 +263,7 @@ private:
     }(static_cast<typename P::Terms const*>(nullptr));
     static constexpr bool needs_acceleration = has_equation_of_state<P> || I::ahead_acceleration > 0;
 
-    static P const& checked(P const& physics, B const& boundary, Backend const& backend, Neighbours const& n,
+    static P const& checked(P const& physics, B const& boundary, Workers const& backend, Neighbours const& n,
                             W const& watch)
     {
         physics.check();

@@ -27,6 +27,7 @@ struct Nowhere {
     void check(double) const {}
 };
 struct Backwards {
+    static constexpr const char* name = "backwards";
     int cell = 0;
     int threads() const { return 1; }
     void check() const {}

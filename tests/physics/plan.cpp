@@ -47,7 +47,6 @@ auto water()
                  ArtificialViscosity{.alpha = 0.1}, Gravity<2>{{0, -9.81}});
 }
 const Lines water_terms{"Tait", "Continuity", "PressureForce", "ArtificialViscosity", "Gravity"};
-using Water = decltype(water());
 using All = Fields<Position, Density, Velocity>;
 
 TEST(Plan, OfAnOpenFluidIsOneFusedSweep)
@@ -109,11 +108,11 @@ TEST(Plan, OfGrainsIsASweep)
 }
 
 inline constexpr struct Heat : ScalarField {
-    static constexpr std::string_view name = "heat", unit = "J";
+    static constexpr std::string_view name = "heat";
     static constexpr bool derived = true;
 } heat{};
 inline constexpr struct Warmth : ScalarField {
-    static constexpr std::string_view name = "warmth", unit = "K";
+    static constexpr std::string_view name = "warmth";
     static constexpr bool derived = true;
 } warmth{};
 struct Push {

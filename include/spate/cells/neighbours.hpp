@@ -56,9 +56,9 @@ public:
     /// Builds the lists of a target over all its sources together: their blocks hold the same targets.
     /// \param W  targets in a block    \param window  see Neighbours
     /// \param reach  range and skin [m]    \param range  [m], for counting pairs
-    template <class P, class Backend, class... Q>
+    template <class P, class Workers, class... Q>
     static void build(P const& target, Binning<Dim> const& at, Grid<Dim> const& grid, int W, int window, double reach,
-                      double range, Backend const& backend, From<Q>... from)
+                      double range, Workers const& backend, From<Q>... from)
     {
         (from.lists.begin_build(at.cells(), from.record, from.particles.size()), ...);
         const Ranges ranges(reach, range, grid);

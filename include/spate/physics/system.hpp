@@ -41,7 +41,7 @@ struct Extremes {
     }
 };
 
-template <class P, class B, class Backend, class Precision>
+template <class P, class B, class Workers, class Precision>
 class System {
 public:
     using M = Model<P, B>;
@@ -62,7 +62,7 @@ public:
     };
 
     /// \param saves  whether the integrator needs the start of the step
-    System(P physics, B boundary, Backend backend, Neighbours neighbours, bool saves)
+    System(P physics, B boundary, Workers backend, Neighbours neighbours, bool saves)
         : physics_(std::move(physics)), boundary_(std::move(boundary)), backend_(backend), neighbours_(neighbours),
           saves_(saves), grid_({}, Edges<dim>(Edge::open), 1, 1, 1), terms_(M::terms_of(physics_, boundary_))
     {
@@ -99,7 +99,7 @@ public:
     auto& terms() { return terms_; }
     auto const& terms() const { return terms_; }
     B const& boundary() const { return boundary_; }
-    Backend const& backend() const { return backend_; }
+    Workers const& backend() const { return backend_; }
     Grid<dim> const& grid() const { return grid_; }
     Neighbours const& neighbours() const { return neighbours_; }
     template <int s, int q>
@@ -726,7 +726,7 @@ private:
 
     P physics_;
     B boundary_;
-    Backend backend_;
+    Workers backend_;
     Neighbours neighbours_;
     bool saves_;
     Grid<dim> grid_;
