@@ -87,7 +87,7 @@ public:
         require_positive("spacing", spacing, "m");
         Index<dim> n;
         for (int c = 0; c < dim; ++c) {
-            const std::string edge = "box length along axis " + std::to_string(c);
+            const std::string edge = along_axis("box length", c);
             require_positive(edge, box.size()[c], "m");
             const double k = std::round(box.size()[c] / spacing);
             require(spacing <= box.size()[c] * (1 + 1e-6), "spacing", spacing,

@@ -106,7 +106,7 @@ void fill(auto& sim, double dx, auto const& start)
 {
     sim.fill(sim.system().boundary().template box<Dim>().value(), dx, start);
     sim.system().rebuild();
-    sim.system().template phase<When::before_step>();
+    sim.system().template phase<When::before_step>(0, [] {});
 }
 
 template <class K_, class P_>

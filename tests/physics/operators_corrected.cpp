@@ -207,7 +207,7 @@ public:
             p.put(mass, i, 1000 * std::pow(dx, dim) * dice.real(0.95, 1.05));
         });
         sim.system().rebuild();
-        sim.system().template phase<When::before_step>();
+        sim.system().template phase<When::before_step>(0, [] {});
         return sim;
     }
 };

@@ -30,7 +30,7 @@ public:
         (apply(edges_, options), ...);
         require_positive("Bce.spacing", spacing, "m");
         for (int c = 0; c < Dim; ++c) {
-            const std::string length = "Bce.box length along axis " + std::to_string(c);
+            const std::string length = along_axis("Bce.box length", c);
             require_positive(length, box.size()[c], "m");
             const double n = box.size()[c] / spacing;
             require(n > 1 - 1e-6, "Bce.spacing", spacing, "at most the box length " + text(box.size()[c]) + " m");

@@ -49,7 +49,7 @@ public:
     {
         for (int c = 0; c < Dim; ++c) {
             const double length = box.size()[c];
-            const std::string axis = "box length along axis " + std::to_string(c);
+            const std::string axis = along_axis("box length", c);
             require_positive(axis, length, "m");
             if ((edges.at(c, false) == Edge::periodic) != (edges.at(c, true) == Edge::periodic))
                 throw BadInput("axis " + std::to_string(c), "periodic at one end and open or a wall at the other",

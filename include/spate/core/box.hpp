@@ -30,6 +30,14 @@ struct Box {
     }
 };
 
+/// "box length along axis 1": the name of a parameter in a message.
+inline std::string along_axis(std::string what, int axis)
+{
+    what += " along axis ";
+    what += std::to_string(axis);
+    return what;
+}
+
 /// A face of a box: the lower or the upper end of an axis; the last axis points up.
 struct Face {
     int axis; ///< 0, 1, 2; -1: the last axis of the space; -2: the middle one, in 3D only
