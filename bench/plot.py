@@ -230,6 +230,16 @@ def step(run):
         columns = ["double_ns_pair", "float_ns_pair", "records_ns_pair", "packs_ns_pair", "over_records", "slots_pair"]
         table([["dam break big"] + [run.get("sweep", c) for c in columns]], ["sweep", *columns])
 
+        one = "dam_break_big<Double>/threads:1"
+        if one in run.all:
+            whole, sweep, rates = run.get(one, "cpu_ns_marker"), run.get("sweep", "sweep_ns_marker"), run.get("sweep", "rates_ns_marker")
+            lists = run.get("sweep", "rebuild_ns_marker") * run.get(one, "rebuilds") / (2 * run.get(one, "steps"))
+            print()
+            table(
+                [["ns a marker", sweep, rates - sweep, lists, whole - rates - lists, whole]],
+                ["dam break big", "sweep", "state and packing", "rebuilds", "all else", "an evaluation"],
+            )
+
     known = [r for r in rows if r[1] is not None]
     figure, axis = plt.subplots(figsize=(11, 0.75 * len(known) + 1.8), layout="constrained")
     figure.get_layout_engine().set(rect=(0, 0.05, 1, 0.95))

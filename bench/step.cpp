@@ -53,7 +53,7 @@ void sweep(benchmark::State& state)
     FromL1<P, B, Double, 0, 0> fluid_fluid(one.physics(), s.boundary(), m);
     FromL1<P, B, Double, 0, 1> fluid_wall(one.physics(), s.boundary(), m);
     FromL1<P, B, Double, 1, 0> wall_fluid(one.physics(), s.boundary(), m);
-    Least d, f, packs[3], records[3];
+    Least d, f, rates, rebuild, packs[3], records[3];
     auto turn = [&](int k, auto& l1) {
         packs[k].of([&] {
             for (int n = 0; n < 20; ++n) l1.on_packs();
@@ -65,6 +65,9 @@ void sweep(benchmark::State& state)
     for (auto _ : state) {
         d.of([&] { in_double.run(); });
         f.of([&] { in_float.run(); });
+        rates.of([&] { s.rates(s.all); });
+        rebuild.of([&] { s.rebuild(); });
+        s.rates(s.all); // the records in the order of the new lists
         turn(0, fluid_fluid), turn(1, fluid_wall), turn(2, wall_fluid);
     }
     const double pairs = double(s.pairs());
@@ -84,6 +87,10 @@ void sweep(benchmark::State& state)
     c["over_packs"] = d.ns(pairs) / on_packs;
     c["over_records"] = d.ns(pairs) / on_records;
     c["slots_pair"] = slots(s) / pairs;
+    const double markers = double(s.total());
+    c["sweep_ns_marker"] = d.ns(markers);
+    c["rates_ns_marker"] = rates.ns(markers);
+    c["rebuild_ns_marker"] = rebuild.ns(markers);
 }
 BENCHMARK(sweep)->Iterations(25)->Unit(benchmark::kMillisecond);
 
@@ -92,7 +99,7 @@ void dense_discs(benchmark::State& state)
 {
     const int threads = int(state.range(0));
     auto mixed = [&] {
-        auto box = discs(512, 0.8, threads, {.skin = 0.3, .finer = 1, .window = 16});
+        auto box = discs(512, 0.8, threads, {.skin = 0.4, .finer = 2});
         for (int k = 0; k < 600; ++k) box.step({.dt = 1e-4});
         return box;
     };

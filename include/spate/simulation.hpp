@@ -93,6 +93,9 @@ public:
             require(spacing <= box.size()[c] * (1 + 1e-6), "spacing", spacing,
                     "at most the box length " + text(box.size()[c]) + " m");
             require(k < 1e9, "spacing", spacing, "at least a billionth of the box length");
+            require(std::abs(box.size()[c] / spacing - k) < 1e-6 * k, edge, box.size()[c],
+                    "a whole number of spacings; the nearest is " + text(k * spacing) + " m, or take spacing " +
+                        text(box.size()[c] / k) + " m");
             n[std::size_t(c)] = std::int32_t(k);
         }
         constexpr double most = std::numeric_limits<std::int32_t>::max();
@@ -142,6 +145,7 @@ public:
     void prepare()
     {
         check_particles();
+        if (step_ == 0) check_places();
         system_.use(make_grid());
         system_.resized();
         prepared_ = true;
@@ -155,6 +159,8 @@ public:
         require_non_negative("dt", o.dt, "s");
         require(o.cfl > 0 && o.cfl <= 10, "cfl", o.cfl, "above 0 and at most 10");
         require(o.steps >= 0, "steps", double(o.steps), "0 or above");
+        require(std::isfinite(o.until) || o.steps < std::numeric_limits<std::int64_t>::max(), "until", o.until,
+                "a finite end time [s], or a number of steps");
     }
     /// Steps until the end time or the number of steps; outputs have begin(sim), step(sim), end(sim).
     template <class... Output>
@@ -194,6 +200,7 @@ public:
             if constexpr (W::on)
                 stop_if_outside(system_.mobile(), system_.boundary(), physics().interaction.range(), step_, time_);
             rebuild();
+            stop_if_outrun(e);
         }
         if constexpr (W::on)
             if (step_ % watch_.energy_every == 0) look_at_energy();
@@ -352,6 +359,23 @@ private:
             require(p.empty() || p.value(mass) > 0, "mass", p.value(mass),
                     "above 0 [kg]; the spacing of a fill sets it");
     }
+    /// No particle starts beyond a wall, or is too large for the lists.
+    void check_places() const
+    {
+        auto const& p = system_.mobile();
+        using Q = std::remove_cvref_t<decltype(p)>;
+        const std::size_t i = detail::first_by_id(
+            p, [&](std::size_t k) { return system_.boundary().template beyond<dim>(p.at(position, k)) > 0; });
+        if (i < p.size())
+            throw BadInput("position of particle " + std::to_string(p.id()[i]),
+                           text(system_.boundary().template beyond<dim>(p.at(position, i))) + " m beyond a wall",
+                           "inside the walls");
+        if constexpr (Set<Q::fields>::template contains<Radius> && requires { physics().interaction.largest; })
+            for (std::size_t k = 0; k < p.size(); ++k)
+                require(p.at(radius, k) <= physics().interaction.largest,
+                        "radius of particle " + std::to_string(p.id()[k]), p.at(radius, k),
+                        "at most the interaction's largest, " + text(physics().interaction.largest) + " m");
+    }
     Grid<dim> make_grid() const
     {
         const int by_dimension[] = {64, 16, 4};
@@ -439,6 +463,18 @@ private:
                      text(std::numbers::pi / stiffness_.contact_frequency) + " s");
         }
     }
+    /// Lists that do not last one step would miss pairs in silence.
+    void stop_if_outrun(Extremes e) const
+    {
+        e.moved = 0, e.least_move = {}, e.most_move = {};
+        if (!system_.stale(e, I::ahead_velocity * dt_, I::ahead_acceleration * dt_ * dt_)) return;
+        StopFacts f;
+        f.step = step_, f.time = time_, f.quantity = "the way that a pair may close in within one step, over the range";
+        f.limit = system_.neighbours().closed_in();
+        f.value = system_.closing(e, I::ahead_velocity * dt_, I::ahead_acceleration * dt_ * dt_) /
+                  physics().interaction.range();
+        throw SkinOutrun(f);
+    }
     [[noreturn]] void stop_dt(double dt) const
     {
         StopFacts f;
@@ -461,8 +497,7 @@ private:
     void final_look()
     {
         look(system_.extremes());
-        make_lists_current();
-        look_at_energy();
+        if (!system_.stale(system_.extremes(), 0, 0)) look_at_energy(); // a rebuild here would wrap the last state
         stop_if_outside(system_.mobile(), system_.boundary(), physics().interaction.range(), step_, time_);
     }
     /// A body force along a periodic axis is a source of energy: there is no potential to compare with.

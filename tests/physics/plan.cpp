@@ -41,11 +41,8 @@ std::vector<std::string> lines(P const& plan, std::vector<std::string> const& te
 using Lines = std::vector<std::string>;
 
 /// The reference scene: Tait, continuity, pressure, viscosity, gravity.
-auto water()
-{
-    return wcsph(CubicSpline<2>{1}, Tait{1000, 10}, Continuity<2>{}, PressureForce<2>{},
-                 ArtificialViscosity{.alpha = 0.1}, Gravity<2>{{0, -9.81}});
-}
+using Water = decltype(wcsph(CubicSpline<2>{1}, Tait{1000, 10}, Continuity<2>{}, PressureForce<2>{},
+                             ArtificialViscosity{.alpha = 0.1}, Gravity<2>{{0, -9.81}}));
 const Lines water_terms{"Tait", "Continuity", "PressureForce", "ArtificialViscosity", "Gravity"};
 using All = Fields<Position, Density, Velocity>;
 

@@ -105,6 +105,11 @@ struct DtCollapse : Stop {
                "speeds or accelerations have grown a thousandfold: look at the last snapshot")
     {}
 };
+struct SkinOutrun : Stop {
+    explicit SkinOutrun(StopFacts f)
+        : Stop("SkinOutrun", std::move(f), "take a smaller dt, or a larger skin and bins of the Neighbours")
+    {}
+};
 struct IndexOverflow : Stop {
     explicit IndexOverflow(StopFacts f)
         : Stop("IndexOverflow", std::move(f),

@@ -77,8 +77,15 @@ struct Along {
 
     [[gnu::always_inline]] V operator[](int k) const { return F * x[k]; }
     [[gnu::always_inline]] V dot(Vec<Dim, V> const& b) const { return F * b.dot(x); }
-    [[gnu::always_inline]] friend Vec<Dim, V> operator*(V const& s, Along const& a) { return (s * a.F) * a.x; }
-    [[gnu::always_inline]] friend Vec<Dim, V> operator*(Along const& a, V const& s) { return s * a; }
+    struct Scaled { // s F x, not yet multiplied out
+        V F;
+        Vec<Dim, V> const& x;
+        [[gnu::always_inline]] V dot(Vec<Dim, V> const& b) const { return F * b.dot(x); }
+        [[gnu::always_inline]] operator Vec<Dim, V>() const { return F * x; }
+        [[gnu::always_inline]] friend Scaled operator*(V const& s, Scaled const& a) { return {s * a.F, a.x}; }
+    };
+    [[gnu::always_inline]] friend Scaled operator*(V const& s, Along const& a) { return {s * a.F, a.x}; }
+    [[gnu::always_inline]] friend Scaled operator*(Along const& a, V const& s) { return s * a; }
 };
 
 /// The same vector in all lanes.

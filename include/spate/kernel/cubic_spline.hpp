@@ -31,8 +31,14 @@ struct CubicSpline {
     template <class V>
     [[gnu::always_inline]] static V g(V const& q)
     {
+        return g(q, 1 / q);
+    }
+    /// From q and 1/q, which an interaction can have without waiting for q; what 1/q is at q = 0 does not matter.
+    template <class V>
+    [[gnu::always_inline]] static V g(V const& q, V const& over_q)
+    {
         const V s = max(2 - q, V(0));
-        return where(q < 1, 9 * q - 12, -3 * (s * s) / q); // the outer branch is infinite at q = 0, and not taken there
+        return where(q < 1, 9 * q - 12, (-3 * (s * s)) * over_q);
     }
 };
 

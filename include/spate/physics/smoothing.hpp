@@ -47,7 +47,10 @@ struct Smoothing {
         const V q = sqrt(ij.r2) * V(1 / kernel.h);
         const V s = V(kernel.sigma());
         ij.w = s * K::f(q);
-        ij.grad_w.F = V(kernel.sigma() / (kernel.h * kernel.h)) * K::g(q);
+        const V unit = V(kernel.sigma() / (kernel.h * kernel.h));
+        if constexpr (requires { K::g(q, q); })
+            ij.grad_w.F = unit * K::g(q, q * (V(kernel.h * kernel.h) * (1 / ij.r2))); // divides beside the root
+        else ij.grad_w.F = unit * K::g(q);
         ij.grad_w.x = i[position] - j[position]; // not a copy of ij.x: g++ would send it through the stack
         return ij;
     }

@@ -150,7 +150,11 @@ public:
     /// diagonal of the box of all displacements, one on a marker by no more than the largest of them.
     [[nodiscard]] bool stale(Extremes const& e, double t, double t2) const
     {
-        const double allowed = neighbours_.closed_in() * physics_.interaction.range();
+        return !have_lists_ || !(closing(e, t, t2) <= neighbours_.closed_in() * physics_.interaction.range());
+    }
+    /// The most by which a pair may have closed in at positions up to x + v t + a t2 [m].
+    [[nodiscard]] double closing(Extremes const& e, double t, double t2) const
+    {
         double diagonal2 = 0;
         for (std::size_t c = 0; c < std::size_t(dim); ++c) {
             const double side = e.most_move[c] - e.least_move[c] + t * (e.most_velocity[c] - e.least_velocity[c]);
@@ -158,7 +162,7 @@ public:
         }
         const double pair = std::sqrt(diagonal2) + 2 * t2 * e.acceleration;
         const double marker = M::markers ? e.moved + t * e.speed + t2 * e.acceleration : 0;
-        return !have_lists_ || !(pair <= allowed && marker <= allowed);
+        return pair > marker ? pair : marker;
     }
     void forget_lists() { have_lists_ = false, sorted_markers_ = false, kick_rates_ = false; }
     /// Whether the kick rates are those of the present state: an integrator may begin with them.

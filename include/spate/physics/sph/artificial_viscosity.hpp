@@ -41,7 +41,7 @@ struct ArtificialViscosity {
         const auto vx = (i[velocity] - j[velocity]).dot(ij.x);
         const auto mu = min(vx, 0) * ij.h * ij.over_r2; // 0 where the pair parts
         const auto rho = 0.5 * (i[density] + j[density]);
-        i[acceleration] += (alpha * c0 * j[mass] * mu / rho) * ij.grad_w;
+        i[acceleration] += (alpha * c0 * mu * (1 / rho)) * (j[mass] * ij.grad_w);
     }
 };
 

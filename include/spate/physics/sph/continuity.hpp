@@ -21,7 +21,7 @@ struct Continuity<2> {
     static constexpr Fields adds{density_rate};
     void operator()(auto& i, auto const& j, auto const& ij) const
     {
-        i[density_rate] += j[mass] * (i[velocity] - j[velocity]).dot(ij.grad_w);
+        i[density_rate] += (j[mass] * ij.grad_w).dot(i[velocity] - j[velocity]);
     }
 };
 /// sigma = 1: d rho_i/dt = rho_i sum_j m_j/rho_j v_ij . grad W_ij, for density jumps (Colagrossi & Landrini 2003).

@@ -35,9 +35,8 @@ struct MolteniColagrossi {
     }
     void operator()(auto& i, auto const& j, auto const& ij) const
     {
-        const auto V_j = j[mass] * (1 / j[density]);
         const auto psi_x = 2 * (i[density] - j[density]) * ij.over_r2; // psi = psi_x x
-        i[density_rate] += delta * c0 * ij.h * V_j * psi_x * ij.x.dot(ij.grad_w);
+        i[density_rate] += delta * c0 * ij.h * (1 / j[density]) * psi_x * (j[mass] * ij.grad_w).dot(ij.x);
     }
 };
 
@@ -74,9 +73,8 @@ struct Fourtakas {
         for (int c = 1; c < Dim; ++c) gx = gx + g[c] * ij.x[c];
         const auto s = gx * (1 / (c0 * c0)); // p_H / (rho0 c0^2); (1 + gamma s)^(1/gamma) - 1 = s - ...
         const auto rho_H = rho0 * (s * (1 - s * (0.5 * curvature - s * (curvature * (2 * curvature + 1) / 6))));
-        const auto V_j = j[mass] * (1 / j[density]);
         const auto psi_x = 2 * ((i[density] - j[density]) - rho_H) * ij.over_r2; // psi = psi_x x
-        i[density_rate] += delta * c0 * ij.h * V_j * psi_x * ij.x.dot(ij.grad_w);
+        i[density_rate] += delta * c0 * ij.h * (1 / j[density]) * psi_x * (j[mass] * ij.grad_w).dot(ij.x);
     }
 };
 

@@ -34,8 +34,8 @@ struct LaminarViscosity {
     void operator()(auto& i, auto const& j, auto const& ij) const
     {
         const auto rho = 0.5 * (i[density] + j[density]);
-        const auto f = 2 * mu * ij.x.dot(ij.grad_w) / (rho * rho * (ij.r2 + eps * (ij.h * ij.h)));
-        i[acceleration] += (j[mass] * f) * (i[velocity] - j[velocity]);
+        const auto f = 2 * mu / (rho * rho * (ij.r2 + eps * (ij.h * ij.h)));
+        i[acceleration] += (f * (j[mass] * ij.grad_w).dot(ij.x)) * (i[velocity] - j[velocity]);
     }
 };
 

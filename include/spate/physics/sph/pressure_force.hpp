@@ -22,7 +22,7 @@ struct PressureForce<2> {
     void operator()(auto& i, auto const& j, auto const& ij) const
     {
         const auto v_i = 1 / i[density], v_j = 1 / j[density]; // specific volumes
-        i[acceleration] -= (j[mass] * (i[pressure] * (v_i * v_i) + j[pressure] * (v_j * v_j))) * ij.grad_w;
+        i[acceleration] -= (i[pressure] * (v_i * v_i) + j[pressure] * (v_j * v_j)) * (j[mass] * ij.grad_w);
     }
 };
 /// sigma = 1: dv_i/dt = -sum_j m_j (p_i + p_j)/(rho_i rho_j) grad W_ij.
