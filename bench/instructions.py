@@ -68,4 +68,5 @@ def sweeps(executable):
 if __name__ == "__main__":
     for sweep in sweeps(sys.argv[1]):
         if not sweep["scalar"]:
-            print(*(f"{v} {k}," for k, v in sweep.items() if isinstance(v, int) and k != "scalar"), " + ".join(sweep["terms"]))
+            numbers = [f"{v} {k}," for k, v in sweep.items() if k not in ("terms", "scalar")]
+            print(*numbers, " + ".join(sweep["terms"]))
