@@ -83,6 +83,7 @@ struct Nowhere {
     void check(double) const {}
 };
 struct Backwards { // tasks from the last to the first
+    static constexpr const char* name = "backwards";
     int cell = 0;
     int threads() const { return 1; }
     void check() const {}

@@ -158,10 +158,8 @@ TEST(Plan, OfAPhaseHoldsItsTermsOnly)
     using Chain =
         decltype(physics(Round<2>{1}, Uniform{radius, 1.0}, WarmPush{}, Thermometer{}, SumHeat{}, Dissipate{}));
     using M = Model<Chain, Open>;
-    static constexpr auto after = M::phase_plan<When::after_step>();
+    static constexpr auto after = M::phase_plan<When::after_step, 3>();
     EXPECT_EQ(lines<M>(after, {"WarmPush", "Thermometer", "SumHeat", "Dissipate"}), (Lines{"pass mobile: Dissipate"}));
-    static constexpr auto before = M::phase_plan<When::before_step>();
-    EXPECT_EQ(before.count, 0);
     static constexpr auto rates = M::rates_plan<Fields<Velocity>>();
     for (int k = 0; k < rates.count; ++k) EXPECT_EQ(rates.stage[std::size_t(k)].terms & 8u, 0u);
 }

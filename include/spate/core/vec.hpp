@@ -77,9 +77,11 @@ struct Along {
 
     [[gnu::always_inline]] V operator[](int k) const { return F * x[k]; }
     [[gnu::always_inline]] V dot(Vec<Dim, V> const& b) const { return F * b.dot(x); }
-    struct Scaled { // s F x, not yet multiplied out
+    /// s F x, not yet multiplied out; x is the gradient's, which outlives a term.
+    struct Scaled {
         V F;
         Vec<Dim, V> const& x;
+        [[gnu::always_inline]] V operator[](int k) const { return F * x[k]; }
         [[gnu::always_inline]] V dot(Vec<Dim, V> const& b) const { return F * b.dot(x); }
         [[gnu::always_inline]] operator Vec<Dim, V>() const { return F * x; }
         [[gnu::always_inline]] friend Scaled operator*(V const& s, Scaled const& a) { return {s * a.F, a.x}; }

@@ -227,11 +227,7 @@ public:
     template <When w, int k>
     static constexpr auto phase_plan()
     {
-        constexpr TermFacts f = planner.term[std::size_t(k)];
-        std::array<Mask, std::size_t(species)> wanted{};
-        for (int s = 0; s < species; ++s)
-            if (planner.on(k, s)) wanted[std::size_t(s)] = f.writes | f.adds;
-        return planner.plan(wanted, w);
+        return planner.plan_of(k, w);
     }
 
 private:

@@ -118,9 +118,31 @@ struct Planner {
     [[nodiscard]] constexpr Plan<Terms, Species> plan(std::array<Mask, std::size_t(Species)> const& wanted,
                                                       When w = When::evaluation) const
     {
+        return ordered(needed(wanted, w));
+    }
+    /// The stages that bring a term of a phase what it reads, and run it.
+    [[nodiscard]] constexpr Plan<Terms, Species> plan_of(int t, When w) const
+    {
+        std::array<Mask, std::size_t(Species)> read{};
+        for (int s = 0; s < Species; ++s) {
+            if (!on(t, s)) continue;
+            read[std::size_t(s)] |= term[std::size_t(t)].reads_i & ~term[std::size_t(t)].writes;
+            for (int q = 0; q < Species; ++q)
+                if (from(t, s, q)) read[std::size_t(q)] |= term[std::size_t(t)].reads_j;
+        }
+        auto terms = needed(read, w);
+        for (int s = 0; s < Species; ++s)
+            if (on(t, s)) terms[std::size_t(s)] |= bit(t);
+        return ordered(terms);
+    }
+
+private:
+    using Masks = std::array<Mask, std::size_t(Species)>;
+
+    [[nodiscard]] constexpr Plan<Terms, Species> ordered(Masks pending) const
+    {
         Plan<Terms, Species> p;
-        auto pending = needed(wanted, w);
-        std::array<Mask, std::size_t(Species)> there{}, fresh{};
+        Masks there{}, fresh{};
         for (int s = 0; s < Species; ++s) {
             there[std::size_t(s)] = species[std::size_t(s)].given;
             for (int t = 0; t < Terms; ++t) // a field is there when the last term that makes it has run
@@ -131,9 +153,6 @@ struct Planner {
         for (Mask left : pending) p.complete = p.complete && left == 0;
         return p;
     }
-
-private:
-    using Masks = std::array<Mask, std::size_t(Species)>;
 
     [[nodiscard]] constexpr bool ready(int t, int s, Masks const& there) const
     {
