@@ -124,7 +124,7 @@ TEST_F(PictureTest, ADiscHasTheColourOfItsValue)
     for (const float value : {0.0f, 0.3f, 1.0f}) {
         const Decoded image = drawn(sheet(2), {{{0.2f, -0.4f, 0}, 0.1f, value}});
         EXPECT_EQ(colour_at(image, sheet(2), {0.2, -0.4, 0}), detail::viridis(value));
-        EXPECT_EQ(colour_at(image, sheet(2), {0.2, -0.27, 0}), (Rgb{255, 255, 255}));  // to scale
+        EXPECT_EQ(colour_at(image, sheet(2), {0.2, -0.27, 0}), (Rgb{255, 255, 255})); // to scale
     }
 }
 
@@ -169,7 +169,7 @@ TEST_F(PictureTest, GhostsAreGreyTranslucentOrLeftOut)
     const Rgb grey = colour(Ghosts::solid);
     EXPECT_EQ(grey.r, grey.b);
     expect_hue(colour(Ghosts::left_out), detail::viridis(1));
-    EXPECT_GT(colour(Ghosts::translucent).b, colour(Ghosts::left_out).b);  // yellow behind grey glass
+    EXPECT_GT(colour(Ghosts::translucent).b, colour(Ghosts::left_out).b); // yellow behind grey glass
     EXPECT_LT(colour(Ghosts::translucent).b, grey.b);
 }
 
@@ -260,7 +260,7 @@ TEST(Font, KnowsTwoByteSigns)
 {
     EXPECT_EQ(detail::glyphs("m\u00B3/s").size(), 4u);
     EXPECT_EQ(detail::glyphs("\u03C1")[0], detail::glyph(U'\u03C1'));
-    EXPECT_EQ(detail::glyphs("\xC3").size(), 1u);  // a broken text is no reason to lose a picture
+    EXPECT_EQ(detail::glyphs("\xC3").size(), 1u); // a broken text is no reason to lose a picture
 }
 
-}  // namespace
+} // namespace

@@ -128,7 +128,7 @@ void expect_layout(Reader const& read, std::size_t n)
 
 TEST_F(Vtkhdf, HoldsWhatTheCloudHeld)
 {
-    const Cloud cloud = line_of(70'001);  // more than one chunk of the compressed arrays
+    const Cloud cloud = line_of(70'001); // more than one chunk of the compressed arrays
     write_vtkhdf(directory / "a.hdf", cloud);
     const Reader read(directory / "a.hdf");
     expect_layout(read, cloud.size());
@@ -209,7 +209,7 @@ TEST_F(Vtkhdf, LeavesOutIdAndSpeciesThatAreNotGiven)
 TEST_F(Vtkhdf, SameCloudGivesSameBytes)
 {
     write_vtkhdf(directory / "a.hdf", line_of(100));
-    std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // HDF5 stamps whole seconds, if it does
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // HDF5 stamps whole seconds, if it does
     write_vtkhdf(directory / "b.hdf", line_of(100));
     EXPECT_EQ(content(directory / "a.hdf"), content(directory / "b.hdf"));
 }
@@ -228,7 +228,8 @@ void expect_output_error(fs::path const& file, std::string const& cure)
     try {
         write_vtkhdf(file, line_of(3));
         FAIL() << "wrote " << file;
-    } catch (spate::OutputError const& error) {
+    }
+    catch (spate::OutputError const& error) {
         const std::string what = error.what();
         EXPECT_EQ(what.rfind("spate: ", 0), 0u) << what;
         EXPECT_NE(what.find(file.string()), std::string::npos) << what;
@@ -371,4 +372,4 @@ TEST_F(Vtkhdf, SeriesDoesNotCountAFailedSnapshot)
     EXPECT_THROW(SnapshotSeries(directory, "a/b"), std::invalid_argument);
 }
 
-}  // namespace
+} // namespace

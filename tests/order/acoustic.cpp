@@ -102,7 +102,12 @@ bool bounded(double step)
     sim.prepare();
     double fastest = 0;
     for (int k = 0; k < 10 && fastest < 1e-3; ++k) {
-        sim.run({.steps = 40, .dt = step});
+        try {
+            sim.run({.steps = 40, .dt = step});
+        }
+        catch (Stop const&) { // grew until a step outran the lists
+            return false;
+        }
         fastest = 0;
         for (std::size_t i = 0; i < p.size(); ++i)
             fastest = std::max(fastest, std::sqrt(p.at(velocity, i).squaredNorm()));

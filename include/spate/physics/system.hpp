@@ -16,11 +16,16 @@ namespace spate {
 
 /// Largest values over the mobile particles; NaN-safe by `poison`.
 struct Extremes {
-    double speed = 0;                                        ///< max |v| [m/s]
-    double acceleration = 0;                                 ///< max |a| [m/s^2]
-    double moved = 0;                                        ///< max |x - x_build| [m]
-    std::array<double, 3> least_move{}, most_move{};         ///< of x - x_build by component [m]
-    std::array<double, 3> least_velocity{}, most_velocity{}; ///< by component [m/s]
+    double speed = 0;                                                         ///< max |v| [m/s]
+    double acceleration = 0;                                                  ///< max |a| [m/s^2]
+    double moved = 0;                                                         ///< max |x - x_build| [m]
+    std::array<double, 3> least_move = ends(1), most_move = ends(-1);         ///< of x - x_build by component [m]
+    std::array<double, 3> least_velocity = ends(1), most_velocity = ends(-1); ///< by component [m/s]
+    static constexpr std::array<double, 3> ends(int sign)
+    {
+        const double far = sign * std::numeric_limits<double>::max();
+        return {far, far, far};
+    }
     double least_density = std::numeric_limits<double>::infinity(), most_density = 0; ///< [kg/m^3]
     double poison = 0; ///< 0, or NaN as soon as an evolving field or an acceleration is not finite
 
@@ -29,7 +34,7 @@ struct Extremes {
         speed = std::max(speed, b.speed);
         acceleration = std::max(acceleration, b.acceleration);
         moved = std::max(moved, b.moved);
-        for (std::size_t c = 0; c < 3; ++c) { // 0 is among them: at worst a rebuild too early
+        for (std::size_t c = 0; c < 3; ++c) {
             least_move[c] = std::min(least_move[c], b.least_move[c]);
             most_move[c] = std::max(most_move[c], b.most_move[c]);
             least_velocity[c] = std::min(least_velocity[c], b.least_velocity[c]);
@@ -50,6 +55,10 @@ public:
     static constexpr int dim = M::dim;
     static constexpr int species_count = M::species;
     static constexpr std::size_t task = 2048; ///< particles in a task of a pass; a multiple of every pack
+
+    /// Whether any term looks at neighbours.
+    static constexpr bool any_pairs =
+        M::planner.meet(0, 0) || (species_count == 2 && (M::planner.meet(0, 1) || M::planner.meet(1, 0)));
 
     template <int s>
     using ParticlesOf = Particles<dim, T, Set<M::template stored<s>()>, Set<M::template uniform<s>()>>;
@@ -150,6 +159,7 @@ public:
     /// diagonal of the box of all displacements, one on a marker by no more than the largest of them.
     [[nodiscard]] bool stale(Extremes const& e, double t, double t2) const
     {
+        if (!any_pairs) return !have_lists_;
         return !have_lists_ || !(closing(e, t, t2) <= neighbours_.closed_in() * physics_.interaction.range());
     }
     /// The most by which a pair may have closed in at positions up to x + v t + a t2 [m].
@@ -157,6 +167,7 @@ public:
     {
         double diagonal2 = 0;
         for (std::size_t c = 0; c < std::size_t(dim); ++c) {
+            if (e.most_move[c] < e.least_move[c]) continue; // no particles
             const double side = e.most_move[c] - e.least_move[c] + t * (e.most_velocity[c] - e.least_velocity[c]);
             diagonal2 += side * side;
         }
@@ -679,7 +690,10 @@ private:
         auto const& p = mobile();
         using Q = ParticlesOf<0>;
         Vec<dim, V> least_x{}, most_x{}, least_v{}, most_v{};
-        for (int c = 0; c < dim; ++c) least_x[c] = most_x[c] = least_v[c] = most_v[c] = V(0);
+        for (int c = 0; c < dim; ++c) {
+            least_x[c] = least_v[c] = V(std::numeric_limits<T>::max());
+            most_x[c] = most_v[c] = V(std::numeric_limits<T>::lowest());
+        }
         V v2(0), a2(0), x2(0), least(std::numeric_limits<T>::max()), most(0), poison(0);
         constexpr auto W = std::size_t(width<V>);
         const int lanes = int(std::min(last, W)); // padding has no say: what it holds depends on who is last
