@@ -167,7 +167,7 @@ public:
     {
         double diagonal2 = 0;
         for (std::size_t c = 0; c < std::size_t(dim); ++c) {
-            if (e.most_move[c] < e.least_move[c]) continue; // no particles
+            if (e.most_velocity[c] < e.least_velocity[c]) continue; // no particles
             const double side = e.most_move[c] - e.least_move[c] + t * (e.most_velocity[c] - e.least_velocity[c]);
             diagonal2 += side * side;
         }
