@@ -266,7 +266,7 @@ private:
     {
         if (W % 8 == 0) {
             for (std::int32_t s = 0; s < length; s += 8)
-                for (int l = 0; l < W; l += 8) interleave_8(row + l, s, W, record, to + s * W + l);
+                for (int l = 0; l < W; l += 8) interleave_8(row + l, s, W, record, to + std::ptrdiff_t(s) * W + l);
             return;
         }
         for (std::int32_t s = 0; s < length; ++s)

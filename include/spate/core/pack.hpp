@@ -360,8 +360,9 @@ inline void interleave_8(std::int32_t const* const* row, std::int32_t s, int W, 
         r[l + 3] = _mm256_unpackhi_epi64(t[l + 1], t[l + 3]);
     }
     for (int k = 0; k < 4; ++k) {
-        _mm256_storeu_si256(reinterpret_cast<__m256i*>(to + k * W), _mm256_permute2x128_si256(r[k], r[k + 4], 0x20));
-        _mm256_storeu_si256(reinterpret_cast<__m256i*>(to + (k + 4) * W),
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(to + std::ptrdiff_t(k) * W),
+                            _mm256_permute2x128_si256(r[k], r[k + 4], 0x20));
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(to + std::ptrdiff_t(k + 4) * W),
                             _mm256_permute2x128_si256(r[k], r[k + 4], 0x31));
     }
 #else

@@ -44,7 +44,7 @@ public:
         for (std::size_t i = old; i < n; ++i) id_[i] = next_id_++;
         for_each(fields, [&](auto f) {
             for (auto& a : column(f)) {
-                a.resize((n + 2 * padding - 1) / padding * padding);
+                a.resize((n + std::size_t(2 * padding) - 1) / std::size_t(padding) * std::size_t(padding));
                 std::fill(a.begin() + std::ptrdiff_t(std::min(old, n)), a.end(), T(0)); // the padding was not zero
             }
         });

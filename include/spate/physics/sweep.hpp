@@ -178,11 +178,11 @@ template <Mask terms, class V, class I, class Ri, class Ui, class A, class... T,
 /// \tparam Sums     the fields that the terms add to
 /// \tparam Target   the fields that they read of the target
 template <class V, Mask terms, class Sums, class Target, class I, class Tuple, class P, class... Src>
-void sweep_cell(I const& interaction_, Tuple const& terms_, P& particles, Binning<P::dim> const& at, std::size_t cell,
-                Src const&... source)
+void sweep_cell(I const& of_scene, Tuple const& terms_of_scene, P& particles, Binning<P::dim> const& at,
+                std::size_t cell, Src const&... source)
 {
-    const I interaction = interaction_; // copies in this frame: parameters become invariants in registers
-    const Tuple all = terms_;
+    const I interaction = of_scene; // copies in this frame: parameters become invariants in registers
+    const Tuple all = terms_of_scene;
     const auto ui = particles.template uniforms<V>();
     const auto first = at.begin(cell);
     auto const& lists = std::get<0>(std::tie(source...)).lists.of_cell(cell);
