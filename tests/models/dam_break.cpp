@@ -122,7 +122,7 @@ Fall fall(int n, double alpha = 0.02)
         if (k > 0) dam.run({.until = t, .cfl = 0.2});
         const double leaks = Leaks{dx}(dam), T = 0.02 * k, tau = T / std::sqrt(2);
         f.front.t.push_back(T), f.front.y.push_back(Front{dx}(dam) / a);
-        f.height.t.push_back(tau), f.height.y.push_back(Gauge("", Vec<2, double>{0, 0}, dx)(dam) / H);
+        f.height.t.push_back(tau), f.height.y.push_back(Gauge<2>{"", {0, 0}, dx}(dam) / H);
         f.energy_left = dam.energy().total() / start;
         f.energy_rise = std::max(f.energy_rise, f.energy_left - 1);
         f.leaks = std::max(f.leaks, leaks);
