@@ -54,15 +54,15 @@ constexpr Neighbours neighbours_for()
 template <class P, class I, class B, class Workers = Serial, class Precision = Double, class W = Watch>
 class Simulation {
     static_assert(Integrator<I>, "spate: the second argument of a Simulation is an integrator, such as RungeKutta2{}");
-    static_assert(Boundary<B, P::dim>,
-                  "spate: the third argument of a Simulation is a boundary of the physics' dimension, "
-                  "such as Open{}; see boundary/boundary.hpp");
     static_assert(spate::Backend<Workers>,
                   "spate: the fourth argument of a Simulation is a backend, such as Threads{}; "
                   "see backend/backend.hpp");
     static_assert(
         std::same_as<std::remove_cvref_t<decltype(std::declval<B const&>().template edges<P::dim>())>, Edges<P::dim>>,
         "spate: the boundary has another number of dimensions than the kernel or the grains");
+    static_assert(Boundary<B, P::dim>,
+                  "spate: the third argument of a Simulation is a boundary of the physics' dimension, "
+                  "such as Open{}; see boundary/boundary.hpp");
 
 public:
     static constexpr int dim = P::dim;
