@@ -14,7 +14,6 @@
 
 #include <spate/io/history.hpp>
 #include <spate/io/progress.hpp>
-#include <spate/io/snapshots.hpp>
 #include <spate/measure/front.hpp>
 #include <spate/measure/gauge.hpp>
 #include <spate/measure/leaks.hpp>
@@ -26,6 +25,7 @@
 #include "support/options.hpp"
 #include "support/passive.hpp"
 #include "support/pictures.hpp"
+#include "support/snapshots.hpp"
 #include "support/summary.hpp"
 
 namespace example {
@@ -78,7 +78,7 @@ public:
             .until = options_.until, .steps = options_.steps, .cfl = options_.cfl, .dt = options_.dt};
         scene.check(how);
         require_writable(directory);
-        spate::io::Snapshots snapshots(directory, name_, options_.every);
+        Snapshots snapshots(Series(directory, name_), options_.every);
         Talk talk{.quiet = options_.quiet};
         spate::io::Progress progress(options_.until, options_.steps, spate::io::Progress::usual(options_.quiet));
         scene.interrupt_when([] { return interrupt() != 0; });

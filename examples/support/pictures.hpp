@@ -5,40 +5,29 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include <spate/io/ball.hpp>
 #include <spate/io/detail/every.hpp>
-#include <spate/io/picture.hpp>
 #include <spate/physics/wcsph.hpp>
 
 namespace example {
 
-/// io::write_png, compiled once for all compositions.
-void write_picture(std::filesystem::path const& file, spate::io::Picture const& picture,
-                   std::vector<spate::io::Ball> const& balls);
-
 /// An output of Simulation::run: NAME.png of the last state and, if asked for, NAME_000001.png, ... on the way.
 class Pictures {
 public:
-    Pictures(std::filesystem::path directory, std::string name, double every)
-        : directory_(std::move(directory)), name_(std::move(name)), interval_(every), every_(every)
-    {
-        spate::require_non_negative("picture-every", every, "s");
-    }
+    Pictures(std::filesystem::path directory, std::string name, double every);
     void begin(auto& scene) { step(scene); }
     void step(auto& scene)
     {
         if (interval_ <= 0 || !every_.due(scene.time())) return;
-        std::string number = std::to_string(count_++);
-        number.insert(0, 6 - std::min<std::size_t>(6, number.size()), '0');
-        draw(scene, name_ + "_" + number + ".png");
+        draw(scene, numbered());
     }
-    void end(auto& scene) { draw(scene, name_ + ".png"); }
-    [[nodiscard]] std::filesystem::path file() const { return directory_ / (name_ + ".png"); }
+    void end(auto& scene) { draw(scene, file()); }
+    [[nodiscard]] std::filesystem::path file() const;
 
 private:
     /// The ball that a particle fills: a grain's own radius, else that of the volume m/rho0.
@@ -73,22 +62,18 @@ private:
         return balls;
     }
     template <class Scene>
-    [[gnu::cold]] void draw(Scene const& scene, std::string const& file)
+    [[gnu::cold]] void draw(Scene const& scene, std::filesystem::path const& file) const
     {
-        spate::io::Picture picture;
-        std::array<char, 80> title{};
-        std::snprintf(title.data(), title.size(), "%.40s   t = %.3f s", name_.c_str(), scene.time());
-        picture.title = title.data();
-        picture.value_name = "speed";
-        picture.unit = "m/s";
-        picture.dim = Scene::dim < 3 ? 2 : 3;
-        if (Scene::dim == 2) picture.axes = {"x", "z", ""};
-        picture.value_min = 0;
+        double fastest = spate::io::Picture::automatic; // [m/s]
         if constexpr (spate::has_equation_of_state<std::remove_cvref_t<decltype(scene.physics())>>)
-            picture.value_max =
-                spate::equation_of_state(scene.physics()).c0 / 10; // the fastest flow that c0 was chosen for
-        write_picture(directory_ / file, picture, balls_of(scene));
+            fastest = spate::equation_of_state(scene.physics()).c0 / 10; // the flow that c0 was chosen for
+        write(file, scene.time(), Scene::dim, fastest, balls_of(scene));
     }
+    /// NAME_000001.png, ...
+    std::filesystem::path numbered();
+    /// io::write_png, compiled once for all compositions.
+    void write(std::filesystem::path const& file, double time, int dim, double fastest,
+               std::vector<spate::io::Ball> const& balls) const;
 
     std::filesystem::path directory_;
     std::string name_;

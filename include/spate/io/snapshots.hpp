@@ -1,124 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// \brief Snapshots of a run at even times, for ParaView: which particles and fields go into the file.
-///        The file itself is io/vtkhdf.hpp.
+/// \brief Snapshots of a run at even times, for ParaView. The file itself is io/vtkhdf.hpp.
 #pragma once
 
-#include <algorithm>
-#include <cstdint>
 #include <filesystem>
-#include <limits>
-#include <numeric>
 #include <string>
-#include <type_traits>
-#include <vector>
 
-#include "spate/core/errors.hpp"
-#include "spate/core/fields.hpp"
-#include "spate/io/cloud.hpp"
-#include "spate/io/detail/every.hpp"
+#include "spate/io/snapshots_in.hpp"
 #include "spate/io/vtkhdf.hpp"
 
 namespace spate::io {
 
-namespace detail {
-
-/// What a file shows of a particle's fields: not where lists were built, not rates, and not what is one number for all,
-/// but its radius and its velocity.
-template <class F, class Particles>
-constexpr bool shown =
-    !std::same_as<F, Position> && !std::same_as<F, BuildPosition> && std::is_void_v<typename F::rate_of> &&
-    (!Set<Particles::uniform>::template contains<F> || std::same_as<F, Radius> || std::same_as<F, Velocity>);
-
-template <class Particles, class... F>
-constexpr auto shown_of(Fields<F...>)
-{
-    return (Fields<>{} | ... | spate::detail::kept<shown<F, Particles>>(F{}));
-}
-
-/// The particles of a species in the order of their ids: the same file whoever ran the scene.
-template <class Particles>
-std::vector<std::size_t> by_id(Particles const& p)
-{
-    std::vector<std::size_t> order(p.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return p.id()[a] < p.id()[b]; });
-    return order;
-}
-
-template <class Particles, class F>
-void append(Column& column, Particles const& p, std::size_t i, F field)
-{
-    if constexpr (!Particles::template has<F>)
-        column.values.insert(column.values.end(), std::size_t(column.components),
-                             std::numeric_limits<float>::quiet_NaN());
-    else if constexpr (F::rank == 0) column.values.push_back(float(p.at(field, i)));
-    else {
-        const auto v = p.at(field, i);
-        for (int c = 0; c < 3; ++c) column.values.push_back(c < Particles::dim ? float(v[c]) : 0.0F);
-    }
-}
-
-} // namespace detail
-
-/// All particles of a scene, with the fields that its mobile particles show.
-template <class Scene>
-[[gnu::cold]] Cloud cloud_of(Scene const& scene)
-{
-    using Mobile = std::remove_cvref_t<decltype(scene.particles())>;
-    constexpr auto fields = detail::shown_of<Mobile>(Mobile::fields | Mobile::uniform);
-    Cloud cloud;
-    cloud.time = scene.time();
-    cloud.step = scene.steps();
-    for_each(fields, [&]<class F>(F) { cloud.columns.push_back({std::string(F::name), F::rank == 0 ? 1 : 3, {}}); });
-    scene.system().each_species([&](auto s) {
-        auto const& p = scene.system().template species<s()>().particles;
-        for (const std::size_t i : detail::by_id(p)) {
-            const auto x = p.at(position, i);
-            for (int c = 0; c < 3; ++c) cloud.points.push_back(c < Mobile::dim ? float(x[c]) : 0.0F);
-            cloud.id.push_back(p.id()[i]);
-            cloud.species.push_back(std::uint8_t(s()));
-            std::size_t k = 0;
-            for_each(fields, [&](auto f) { detail::append(cloud.columns[k++], p, i, f); });
-        }
-    });
-    return cloud;
-}
-
 /// Snapshots{directory, "dam_break", 0.01}: an output of Simulation::run; NAME_000000.hdf, ... and NAME.hdf.series.
-class Snapshots {
+class Snapshots : public SnapshotsIn<SnapshotSeries> {
 public:
     /// \param every  interval between two snapshots [s]; 0: the last state only
     Snapshots(std::filesystem::path const& directory, std::string const& name, double every)
-        : series_(directory, name), interval_(every), every_(every)
-    {
-        require_non_negative("Snapshots.every", every, "s");
-    }
-    void begin(auto& scene) { step(scene); }
-    void step(auto& scene)
-    {
-        if (interval_ > 0 && every_.due(scene.time())) write(scene);
-    }
-    void end(auto& scene)
-    {
-        if (written_ != scene.steps()) write(scene);
-    }
-    std::filesystem::path const& last() const { return last_; }
-    std::size_t count() const { return series_.times().size(); }
-
-private:
-    [[gnu::cold]] void write(auto& scene) // seldom: small and quick to compile
-    {
-        scene.refresh();
-        last_ = series_.write(cloud_of(scene));
-        written_ = scene.steps();
-    }
-
-    SnapshotSeries series_;
-    double interval_; ///< [s]
-    detail::Every every_;
-    std::filesystem::path last_;
-    std::int64_t written_ = -1; ///< step of the last one
+        : SnapshotsIn(SnapshotSeries(directory, name), every)
+    {}
 };
 
 } // namespace spate::io

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/snapshots.hpp"
+
+#include <spate/io/vtkhdf.hpp>
+
+namespace example {
+
+Series::Series(std::filesystem::path const& directory, std::string const& name)
+    : series_(std::make_unique<spate::io::SnapshotSeries>(directory, name))
+{}
+Series::Series(Series&&) noexcept = default;
+Series::~Series() = default;
+
+std::filesystem::path Series::write(spate::io::Cloud const& cloud) { return series_->write(cloud); }
+std::vector<double> const& Series::times() const { return series_->times(); }
+
+} // namespace example
