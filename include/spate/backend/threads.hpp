@@ -24,14 +24,14 @@ struct Threads {
     {
         const int team = threads();
         if (team == 1 || tasks < 2) {
-            for (std::size_t k = 0; k < tasks; ++k) run(k);
+            for (std::size_t k = 0; k < tasks; ++k) task(run, k);
             return;
         }
         std::exception_ptr first;
 #pragma omp parallel for schedule(dynamic) num_threads(team)
         for (std::size_t k = 0; k < tasks; ++k) {
             try {
-                run(k);
+                task(run, k);
             }
             catch (...) {
 #pragma omp critical(spate_threads_exception)
@@ -40,6 +40,10 @@ struct Threads {
         }
         if (first) std::rethrow_exception(first);
     }
+
+private:
+    /// Not inlined: compiled once for one thread and for many.
+    [[gnu::noinline]] static void task(auto const& run, std::size_t k) { run(k); }
 };
 
 } // namespace spate

@@ -13,13 +13,13 @@ namespace spate {
 
 /// One parameter is out of range: name, value, and what is allowed.
 struct BadInput : std::invalid_argument {
-    BadInput(std::string const& parameter, std::string const& value, std::string const& allowed)
+    [[gnu::cold]] BadInput(std::string const& parameter, std::string const& value, std::string const& allowed)
         : std::invalid_argument("spate: " + parameter + " is " + value + "; allowed is " + allowed)
     {}
 };
 
 /// A number as a message shows it: the shortest of up to 10 digits.
-inline std::string text(double x)
+[[gnu::cold]] inline std::string text(double x)
 {
     std::ostringstream s;
     s.precision(10);
@@ -59,14 +59,14 @@ struct StopFacts {
 /// A run that can't go on. `name()` is what summary.json and the exit message carry.
 class Stop : public std::runtime_error {
 public:
-    Stop(std::string name, StopFacts facts, std::string const& advice)
+    [[gnu::cold]] Stop(std::string name, StopFacts facts, std::string const& advice)
         : std::runtime_error(sentence(name, facts, advice)), name_(std::move(name)), facts_(std::move(facts))
     {}
     [[nodiscard]] std::string const& name() const { return name_; }
     [[nodiscard]] StopFacts const& facts() const { return facts_; }
 
 private:
-    static std::string sentence(std::string const& name, StopFacts const& f, std::string const& advice)
+    [[gnu::cold]] static std::string sentence(std::string const& name, StopFacts const& f, std::string const& advice)
     {
         std::ostringstream s;
         s.precision(10);
@@ -82,36 +82,36 @@ private:
     StopFacts facts_;
 };
 struct NonFinite : Stop {
-    explicit NonFinite(StopFacts f)
+    [[gnu::cold]] explicit NonFinite(StopFacts f)
         : Stop("NonFinite", std::move(f),
                "take a smaller dt or cfl, or look at the start of the run near this particle")
     {}
 };
 struct OutOfDomain : Stop {
-    explicit OutOfDomain(StopFacts f)
+    [[gnu::cold]] explicit OutOfDomain(StopFacts f)
         : Stop("OutOfDomain", std::move(f),
                "the particle went through a wall: take a smaller dt or cfl, or a finer wall")
     {}
 };
 struct EnergyRunaway : Stop {
-    explicit EnergyRunaway(StopFacts f)
+    [[gnu::cold]] explicit EnergyRunaway(StopFacts f)
         : Stop("EnergyRunaway", std::move(f),
                "the scheme creates energy: take a smaller dt, another integrator, or more dissipation")
     {}
 };
 struct DtCollapse : Stop {
-    explicit DtCollapse(StopFacts f)
+    [[gnu::cold]] explicit DtCollapse(StopFacts f)
         : Stop("DtCollapse", std::move(f),
                "speeds or accelerations have grown a thousandfold: look at the last snapshot")
     {}
 };
 struct SkinOutrun : Stop {
-    explicit SkinOutrun(StopFacts f)
+    [[gnu::cold]] explicit SkinOutrun(StopFacts f)
         : Stop("SkinOutrun", std::move(f), "take a smaller dt, or a larger skin and bins of the Neighbours")
     {}
 };
 struct IndexOverflow : Stop {
-    explicit IndexOverflow(StopFacts f)
+    [[gnu::cold]] explicit IndexOverflow(StopFacts f)
         : Stop("IndexOverflow", std::move(f),
                "a particle is too far from the origin for the cell index: bound the domain")
     {}

@@ -21,6 +21,20 @@ struct Uniform {
 template <Field F>
 Uniform(F, double) -> Uniform<F>;
 
+namespace detail { // of one column: compiled once, not for each field
+template <class T>
+[[gnu::noinline]] void permute(Array<T>& a, std::vector<std::int32_t> const& order, Array<T>& room)
+{
+    for (std::size_t k = 0; k < order.size(); ++k) room[k] = a[std::size_t(order[k])];
+    std::copy(room.begin(), room.end(), a.begin());
+}
+template <class T>
+[[gnu::noinline]] void fill_from(Array<T>& a, std::size_t first, T value)
+{
+    std::fill(a.begin() + std::ptrdiff_t(first), a.end(), value);
+}
+} // namespace detail
+
 template <int Dim, Real T, class Stored, class Uniforms>
 class Particles;
 
@@ -45,7 +59,7 @@ public:
         for_each(fields, [&](auto f) {
             for (auto& a : column(f)) {
                 a.resize((n + std::size_t(2 * padding) - 1) / std::size_t(padding) * std::size_t(padding));
-                std::fill(a.begin() + std::ptrdiff_t(std::min(old, n)), a.end(), T(0)); // the padding was not zero
+                detail::fill_from(a, std::min(old, n), T(0)); // the padding was not zero
             }
         });
     }
@@ -191,10 +205,7 @@ public:
     {
         Array<T> t(order.size());
         for_each(fields, [&](auto f) {
-            for (auto& a : column(f)) {
-                for (std::size_t k = 0; k < order.size(); ++k) t[k] = a[std::size_t(order[k])];
-                std::copy(t.begin(), t.end(), a.begin());
-            }
+            for (auto& a : column(f)) detail::permute(a, order, t);
         });
         std::vector<std::uint32_t> id(order.size());
         for (std::size_t k = 0; k < order.size(); ++k) id[k] = id_[std::size_t(order[k])];
@@ -206,7 +217,7 @@ public:
     {
         if (empty()) return;
         for_each(fields, [&](auto f) {
-            for (auto& a : column(f)) std::fill(a.begin() + std::ptrdiff_t(size()), a.end(), a[size() - 1]);
+            for (auto& a : column(f)) detail::fill_from(a, size(), a[size() - 1]);
         });
     }
     /// Bytes in use by columns and ids.

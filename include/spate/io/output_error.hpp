@@ -13,12 +13,12 @@
 namespace spate {
 
 struct OutputError : std::runtime_error {
-    OutputError(std::filesystem::path const& path, std::string const& reason, std::string const& cure)
+    [[gnu::cold]] OutputError(std::filesystem::path const& path, std::string const& reason, std::string const& cure)
         : std::runtime_error("spate: cannot write " + path.string() + " (" + reason + "); " + cure)
     {}
 
     /// From an errno of the operating system.
-    OutputError(std::filesystem::path const& path, int error)
+    [[gnu::cold]] OutputError(std::filesystem::path const& path, int error)
         : OutputError(path, std::generic_category().message(error), cure(error))
     {}
 

@@ -655,7 +655,7 @@ private:
                     auto one = [&](auto set) {
                         for_each(M::template evolving<s()>() & set, [&](auto f) {
                             for (int c = 0; c < components<decltype(f), dim>; ++c)
-                                advance_column<from_start, s()>(species<s()>(), f, std::size_t(c), first, last, T(dt));
+                                advance_field<from_start, s()>(species<s()>(), f, std::size_t(c), first, last, T(dt));
                         });
                     };
                     (one(Sets{}), ...);
@@ -663,14 +663,20 @@ private:
         });
     }
     template <bool from_start, int s, Field F>
-    static void advance_column(auto& x, F f, std::size_t c, std::size_t first, std::size_t last, T dt)
+    static void advance_field(auto& x, F f, std::size_t c, std::size_t first, std::size_t last, T dt)
     {
         constexpr auto rate = []<class G>(Fields<G>) { return G{}; }(rate_in<F>(M::template stored<s>()));
         T* const y = x.particles.column(f)[c].data();
         T const* const r = x.particles.column(rate)[c].data();
-        T const* const y0 = from_start ? x.start.column(f)[c].data() : y;
+        if constexpr (from_start) advance_column(y, x.start.column(f)[c].data(), r, first, last, dt);
+        else advance_column(y, y, r, first, last, dt);
+    }
+    /// Not inlined: compiled once, not for each component of each field.
+    [[gnu::noinline]] static void advance_column(T* y, T const* y0, T const* rate, std::size_t first, std::size_t last,
+                                                 T dt)
+    {
         for (std::size_t i = first; i < last; i += std::size_t(width<V>))
-            store(y + i, V(load<V>(y0 + i) + V(dt) * load<V>(r + i)));
+            store(y + i, V(load<V>(y0 + i) + V(dt) * load<V>(rate + i)));
     }
     void wrap()
     {
