@@ -37,7 +37,7 @@ spate::Box<Dim> box_of(double x, double y, double z)
 
 /// Water and three layers of wall around the tank, about.
 template <int Dim>
-double markers(Column<Dim> const& c)
+[[gnu::cold]] double markers(Column<Dim> const& c)
 {
     double water = 1, tank = 1, all = 1;
     for (int k = 0; k < Dim; ++k) {
@@ -51,7 +51,7 @@ double markers(Column<Dim> const& c)
 /// \param name     default, big, small (3D) or 2d (2D)
 /// \param spacing  0: that of the case; else one that divides its boxes [m]
 template <int Dim>
-Column<Dim> column(std::string const& name, double spacing)
+[[gnu::cold]] Column<Dim> column(std::string const& name, double spacing)
 {
     constexpr double H = 0.6; // [m]
     double unit = H / 4;      // every edge of both boxes is a multiple of it [m]

@@ -69,8 +69,8 @@ public:
     using Engine = System<P, B, Workers, Precision>;
     using Point = Vec<dim, double>;
 
-    Simulation(P physics, I integrator, B boundary, Workers backend = {}, Precision = {}, W watch = {},
-               Neighbours neighbours = neighbours_for<typename Engine::M::Interaction>())
+    [[gnu::cold]] Simulation(P physics, I integrator, B boundary, Workers backend = {}, Precision = {}, W watch = {},
+                             Neighbours neighbours = neighbours_for<typename Engine::M::Interaction>())
         : integrator_(integrator), watch_(watch),
           system_(checked(physics, boundary, backend, neighbours, watch), boundary, backend, neighbours, I::saves),
           g_(gravity_of(physics))
@@ -82,7 +82,7 @@ public:
     /// Fills a box with particles at the centres of cubes of edge `spacing` [m]; `start` is `hydrostatic` or is called
     /// with (particles, i) for each new one. Returns how many.
     template <class Start = std::nullptr_t>
-    std::size_t fill(Box<dim> const& box, double spacing, Start start = nullptr)
+    [[gnu::cold]] std::size_t fill(Box<dim> const& box, double spacing, Start start = nullptr)
     {
         require_positive("spacing", spacing, "m");
         Index<dim> n;
@@ -142,7 +142,7 @@ public:
         return i;
     }
     /// Tells the scene that particles were changed by hand.
-    void prepare()
+    [[gnu::cold]] void prepare()
     {
         check_particles();
         if (step_ == 0) check_places();
@@ -153,7 +153,7 @@ public:
 
     // ---- running
     /// Throws BadInput for the first option out of range; run() asks too.
-    static void check(RunOptions const& o)
+    [[gnu::cold]] static void check(RunOptions const& o)
     {
         require(!std::isnan(o.until) && o.until >= 0, "until", o.until, "0 or above [s]");
         require_non_negative("dt", o.dt, "s");
@@ -270,8 +270,8 @@ private:
     }(static_cast<typename P::Terms const*>(nullptr));
     static constexpr bool needs_acceleration = has_equation_of_state<P> || I::ahead_acceleration > 0;
 
-    static P const& checked(P const& physics, B const& boundary, Workers const& backend, Neighbours const& n,
-                            W const& watch)
+    [[gnu::cold]] static P const& checked(P const& physics, B const& boundary, Workers const& backend,
+                                          Neighbours const& n, W const& watch)
     {
         physics.check();
         backend.check();
@@ -282,7 +282,7 @@ private:
         return physics;
     }
     /// Mass from the spacing, where mass is uniform and follows from a reference density.
-    void set_mass(double spacing)
+    [[gnu::cold]] void set_mass(double spacing)
     {
         if constexpr (has_equation_of_state<P> && Set<P::uniform>::template contains<Mass>) {
             const double m = equation_of_state(physics()).rho0 * std::pow(spacing, dim);
@@ -309,7 +309,7 @@ private:
         }
         else if constexpr (!std::same_as<Start, std::nullptr_t>) start(p, i);
     }
-    void place_markers()
+    [[gnu::cold]] void place_markers()
     {
         if constexpr (Engine::species_count == 2) {
             auto& p = system_.template species<1>().particles;
@@ -325,7 +325,7 @@ private:
     }
     /// Markers whose density is a state start at that of the fluid before them.
     template <class Start>
-    void wet_markers([[maybe_unused]] Box<dim> const& box, [[maybe_unused]] Start start)
+    [[gnu::cold]] void wet_markers([[maybe_unused]] Box<dim> const& box, [[maybe_unused]] Start start)
     {
         if constexpr (std::same_as<Start, Hydrostatic>) {
             auto& p = system_.template species<1>().particles;
@@ -334,7 +334,7 @@ private:
                 if (near.contains(p.at(position, i))) begin(p, i, box, start);
         }
     }
-    void check_particles() const
+    [[gnu::cold]] void check_particles() const
     {
         auto const& p = system_.mobile();
         using Q = std::remove_cvref_t<decltype(p)>;
@@ -360,7 +360,7 @@ private:
                     "above 0 [kg]; the spacing of a fill sets it");
     }
     /// No particle starts beyond a wall, or is too large for the lists.
-    void check_places() const
+    [[gnu::cold]] void check_places() const
     {
         auto const& p = system_.mobile();
         using Q = std::remove_cvref_t<decltype(p)>;
@@ -376,7 +376,7 @@ private:
                         "radius of particle " + std::to_string(p.id()[k]), p.at(radius, k),
                         "at most the interaction's largest, " + text(physics().interaction.largest) + " m");
     }
-    Grid<dim> make_grid() const
+    [[gnu::cold]] Grid<dim> make_grid() const
     {
         const int by_dimension[] = {64, 16, 4};
         const int cell = system_.backend().cell > 0 ? system_.backend().cell : by_dimension[dim - 1];
@@ -399,12 +399,15 @@ private:
             system_.rebuild();
         }
         catch (IndexOverflow const& e) {
-            StopFacts f = e.facts();
-            f.step = step_, f.time = time_, f.species = 0; // markers stand still
-            throw IndexOverflow(f);
+            stop_index(e.facts());
         }
     }
-    void begin_run(RunOptions const& o)
+    [[noreturn, gnu::cold]] void stop_index(StopFacts f) const
+    {
+        f.step = step_, f.time = time_, f.species = 0; // markers stand still
+        throw IndexOverflow(f);
+    }
+    [[gnu::cold]] void begin_run(RunOptions const& o)
     {
         if (step_ > 0) return;
         double m = 0;
@@ -431,7 +434,7 @@ private:
         dt_ = t.dt, criterion_ = t.criterion;
     }
     /// Warns where theory predicts growth at this step.
-    void advise(double dt)
+    [[gnu::cold]] void advise(double dt)
     {
         auto warn = [&](std::string const& w) { report_.warnings.push_back(w); };
         if constexpr (has_equation_of_state<P>) {
@@ -464,7 +467,7 @@ private:
         }
     }
     /// Lists that do not last one step would miss pairs in silence.
-    void stop_if_outrun(Extremes e) const
+    [[gnu::cold]] void stop_if_outrun(Extremes e) const
     {
         e.moved = 0, e.least_move = {}, e.most_move = {};
         if (!system_.stale(e, I::ahead_velocity * dt_, I::ahead_acceleration * dt_ * dt_)) return;
@@ -475,7 +478,7 @@ private:
                   physics().interaction.range();
         throw SkinOutrun(f);
     }
-    [[noreturn]] void stop_dt(double dt) const
+    [[noreturn, gnu::cold]] void stop_dt(double dt) const
     {
         StopFacts f;
         f.step = step_, f.time = time_, f.quantity = "dt [s]", f.value = dt, f.limit = 1e-3 * first_dt_;
@@ -494,7 +497,7 @@ private:
             if (e.poison != 0) stop_if_not_finite(system_.mobile(), step_, time_);
         }
     }
-    void final_look()
+    [[gnu::cold]] void final_look()
     {
         look(system_.extremes());
         if (!system_.stale(system_.extremes(), 0, 0)) look_at_energy(); // a rebuild here would wrap the last state
@@ -520,25 +523,28 @@ private:
         if (report_.energy_reference == 0) return;
         const double rise = (e.total() - report_.start.total()) / report_.energy_reference;
         report_.energy_rise = std::max(report_.energy_rise, rise);
-        if (rise > watch_.warn && !warned_) {
-            warned_ = true;
-            report_.warnings.push_back("total energy has risen by " + text(100 * rise) +
-                                       " % of its reference at step " + std::to_string(step_) + ", t = " + text(time_) +
-                                       " s");
-        }
+        if (rise > watch_.warn && !warned_) warn_of_energy(rise);
         // What is measured of a bounded scheme oscillates by a known amount.
         double allowed = watch_.stop;
         if constexpr (requires { I::energy_error(1.0); })
             allowed += I::energy_error(stiffness_.contact_frequency * dt_);
-        if (!(rise <= allowed)) {
-            StopFacts f;
-            f.step = step_, f.time = time_, f.quantity = "the rise of total energy over its reference";
-            f.value = rise, f.limit = allowed;
-            throw EnergyRunaway(f);
-        }
+        if (!(rise <= allowed)) stop_energy(rise, allowed);
+    }
+    [[gnu::cold]] void warn_of_energy(double rise)
+    {
+        warned_ = true;
+        report_.warnings.push_back("total energy has risen by " + text(100 * rise) + " % of its reference at step " +
+                                   std::to_string(step_) + ", t = " + text(time_) + " s");
+    }
+    [[noreturn, gnu::cold]] void stop_energy(double rise, double allowed) const
+    {
+        StopFacts f;
+        f.step = step_, f.time = time_, f.quantity = "the rise of total energy over its reference";
+        f.value = rise, f.limit = allowed;
+        throw EnergyRunaway(f);
     }
     /// Kinetic and stored energy at the start, or that of the fastest flow that the speed of sound was chosen for, c0/10.
-    [[nodiscard]] double reference(Energy const& e) const
+    [[gnu::cold]] [[nodiscard]] double reference(Energy const& e) const
     {
         double r = e.kinetic;
         if constexpr (has_equation_of_state<P>) {

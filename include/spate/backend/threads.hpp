@@ -19,7 +19,10 @@ struct Threads {
 
     static constexpr const char* name = "threads";
     [[nodiscard]] int threads() const { return count > 0 ? count : omp_get_max_threads(); }
-    void check() const { require(count >= 0 && count <= 4096, "Threads.count", count, "0 (all) to 4096"); }
+    [[gnu::cold]] void check() const
+    {
+        require(count >= 0 && count <= 4096, "Threads.count", count, "0 (all) to 4096");
+    }
     void for_each(std::size_t tasks, auto const& run) const
     {
         const int team = threads();

@@ -24,7 +24,7 @@ public:
     static constexpr auto state = State::fields;
 
     template <class... Options>
-    Bce(Box<Dim> box, double spacing, State how, Options... options)
+    [[gnu::cold]] Bce(Box<Dim> box, double spacing, State how, Options... options)
         : box_(box), spacing_(spacing), how_(how), edges_(Edge::wall)
     {
         (apply(edges_, options), ...);
@@ -79,7 +79,7 @@ public:
 
 private:
     template <int c>
-    void place_axis(int layers, Vec<Dim, double>& x, bool inside, auto const& f) const
+    [[gnu::cold]] void place_axis(int layers, Vec<Dim, double>& x, bool inside, auto const& f) const
     {
         const int n = int(std::round(box_.size()[c] / spacing_));
         const int first = edges_.at(c, false) == Edge::wall ? -layers : 0;

@@ -45,7 +45,7 @@ public:
     }
     [[nodiscard]] double thickness(double) const { return 0; }
 
-    static void check_periodic(Box<Dim> const& box, Edges<Dim> const& edges, double reach)
+    [[gnu::cold]] static void check_periodic(Box<Dim> const& box, Edges<Dim> const& edges, double reach)
     {
         for (int c = 0; c < Dim; ++c) {
             const double length = box.size()[c];

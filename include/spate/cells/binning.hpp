@@ -28,42 +28,10 @@ public:
     template <class P>
     void sort(P& p, Grid<Dim> const& grid)
     {
-        const std::size_t n = p.size();
-        bins_of_cell_ = grid.bins_of_cell();
-        std::vector<std::uint64_t> key(n);
-        std::vector<std::int32_t> local(n), order(n);
-        auto const& x = p.column(position);
-        for (std::size_t i = 0; i < n; ++i) {
-            Index<Dim> cell;
-            std::int32_t in_cell = 0;
-            for (int c = Dim - 1; c >= 0; --c) {
-                const std::int32_t bin = grid.bin(c, double(x[std::size_t(c)][i]));
-                cell[std::size_t(c)] = grid.cell_of(c, bin);
-                in_cell = in_cell * grid.bins_of_cell(c) + (bin - cell[std::size_t(c)] * grid.bins_of_cell(c));
-            }
-            key[i] = packed(cell);
-            if (key[i] == overflow) throw IndexOverflow(facts(p, i));
-            local[i] = in_cell;
-        }
-        find_cells(key);
-        first_.assign(cells_.size() * std::size_t(bins_of_cell_) + 1, 0);
-        std::vector<std::size_t> at(n);
-        std::uint64_t last = overflow;
-        std::int32_t c = -1;
-        for (std::size_t i = 0; i < n; ++i) {
-            if (key[i] != last) c = find(key[i]), last = key[i];
-            at[i] = std::size_t(c) * std::size_t(bins_of_cell_) + std::size_t(local[i]);
-            ++first_[at[i] + 1];
-        }
-        for (std::size_t b = 1; b < first_.size(); ++b) first_[b] += first_[b - 1];
-        std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
-        for (std::size_t i = 0; i < n; ++i) order[std::size_t(next[at[i]]++)] = std::int32_t(i);
-        auto const& id = p.id();
-        for (std::size_t b = 0; b + 1 < first_.size(); ++b)
-            std::sort(order.begin() + first_[b], order.begin() + first_[b + 1],
-                      [&](std::int32_t a, std::int32_t d) { return id[std::size_t(a)] < id[std::size_t(d)]; });
-        p.permute(order);
-        make_images(p, grid);
+        Positions<typename P::real> x; // all that is asked of a species: compiled once for all of them
+        for (std::size_t c = 0; c < x.size(); ++c) x[c] = p.column(position)[c].data();
+        p.permute(order_of(x, p.id(), grid));
+        make_images(x, p.size(), grid);
     }
 
     [[nodiscard]] std::size_t cells() const { return cells_.size(); }
@@ -119,6 +87,48 @@ private:
             cell[std::size_t(c)] = std::int32_t(key & ((1u << bits) - 1)) - (1 << (bits - 1));
         return cell;
     }
+    template <class T>
+    using Positions = std::array<T const*, std::size_t(Dim)>;
+
+    /// The particles by (cell, bin, id), and the cells that they occupy.
+    template <class T>
+    std::vector<std::int32_t> order_of(Positions<T> const& x, std::vector<std::uint32_t> const& id,
+                                       Grid<Dim> const& grid)
+    {
+        const std::size_t n = id.size();
+        bins_of_cell_ = grid.bins_of_cell();
+        std::vector<std::uint64_t> key(n);
+        std::vector<std::int32_t> local(n), order(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            Index<Dim> cell;
+            std::int32_t in_cell = 0;
+            for (int c = Dim - 1; c >= 0; --c) {
+                const std::int32_t bin = grid.bin(c, double(x[std::size_t(c)][i]));
+                cell[std::size_t(c)] = grid.cell_of(c, bin);
+                in_cell = in_cell * grid.bins_of_cell(c) + (bin - cell[std::size_t(c)] * grid.bins_of_cell(c));
+            }
+            key[i] = packed(cell);
+            if (key[i] == overflow) throw IndexOverflow(facts(x, id, i));
+            local[i] = in_cell;
+        }
+        find_cells(key);
+        first_.assign(cells_.size() * std::size_t(bins_of_cell_) + 1, 0);
+        std::vector<std::size_t> at(n);
+        std::uint64_t last = overflow;
+        std::int32_t c = -1;
+        for (std::size_t i = 0; i < n; ++i) {
+            if (key[i] != last) c = find(key[i]), last = key[i];
+            at[i] = std::size_t(c) * std::size_t(bins_of_cell_) + std::size_t(local[i]);
+            ++first_[at[i] + 1];
+        }
+        for (std::size_t b = 1; b < first_.size(); ++b) first_[b] += first_[b - 1];
+        std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
+        for (std::size_t i = 0; i < n; ++i) order[std::size_t(next[at[i]]++)] = std::int32_t(i);
+        for (std::size_t b = 0; b + 1 < first_.size(); ++b)
+            std::sort(order.begin() + first_[b], order.begin() + first_[b + 1],
+                      [&](std::int32_t a, std::int32_t d) { return id[std::size_t(a)] < id[std::size_t(d)]; });
+        return order;
+    }
     /// The distinct keys, in order, and an open-addressing table from key to number.
     void find_cells(std::vector<std::uint64_t> const& key)
     {
@@ -148,26 +158,26 @@ private:
             if (cells_[std::size_t(table_[h])] == key) return table_[h];
         return -1;
     }
-    template <class P>
-    void make_images(P const& p, Grid<Dim> const& grid)
+    template <class T>
+    void make_images(Positions<T> const& x, std::size_t n, Grid<Dim> const& grid)
     {
         images_ = {};
         if (!grid.any_periodic()) return;
-        images_.near_face.resize(p.size());
+        images_.near_face.resize(n);
         images_.first.assign(1, 0);
-        for (std::size_t i = 0; i < p.size(); ++i) {
+        for (std::size_t i = 0; i < n; ++i) {
             std::array<std::array<int, 3>, std::size_t(Dim)> digits{};
             std::array<int, std::size_t(Dim)> count{};
             int face = 0, total = 1;
             for (int c = 0; c < Dim; ++c) {
-                auto& n = count[std::size_t(c)] = 1;
+                auto& m = count[std::size_t(c)] = 1;
                 if (grid.periodic(c)) {
-                    const std::int32_t b = grid.bin(c, double(p.column(position)[std::size_t(c)][i]));
-                    if (b < grid.per_range(c)) face |= 1 << (2 * c), digits[std::size_t(c)][std::size_t(n++)] = 1;
+                    const std::int32_t b = grid.bin(c, double(x[std::size_t(c)][i]));
+                    if (b < grid.per_range(c)) face |= 1 << (2 * c), digits[std::size_t(c)][std::size_t(m++)] = 1;
                     if (b >= grid.bins(c) - grid.per_range(c))
-                        face |= 2 << (2 * c), digits[std::size_t(c)][std::size_t(n++)] = 2;
+                        face |= 2 << (2 * c), digits[std::size_t(c)][std::size_t(m++)] = 2;
                 }
-                total *= n;
+                total *= m;
             }
             images_.near_face[i] = std::uint8_t(face);
             for (int s = 1; s < total; ++s) {
@@ -182,12 +192,12 @@ private:
             images_.first.push_back(std::int32_t(images_.of.size()));
         }
     }
-    template <class P>
-    static StopFacts facts(P const& p, std::size_t i)
+    template <class T>
+    [[gnu::cold]] static StopFacts facts(Positions<T> const& x, std::vector<std::uint32_t> const& id, std::size_t i)
     {
         StopFacts f;
-        f.particle = p.id()[i];
-        for (int c = 0; c < Dim; ++c) f.position[c] = double(p.column(position)[std::size_t(c)][i]);
+        f.particle = id[i];
+        for (int c = 0; c < Dim; ++c) f.position[c] = double(x[std::size_t(c)][i]);
         f.quantity = "the cell index of its position";
         f.limit = double(1 << (bits - 1));
         f.value = std::numeric_limits<double>::infinity();

@@ -31,7 +31,7 @@ struct Box {
 };
 
 /// "box length along axis 1": the name of a parameter in a message.
-inline std::string along_axis(std::string what, int axis)
+[[gnu::cold]] inline std::string along_axis(std::string what, int axis)
 {
     what += " along axis ";
     what += std::to_string(axis);
@@ -57,7 +57,7 @@ struct Edges {
 
     explicit Edges(Edge all) { face.fill(all); }
     [[nodiscard]] Edge at(int axis, bool upper) const { return face[std::size_t(2 * axis + upper)]; }
-    void set(Face f, Edge e)
+    [[gnu::cold]] void set(Face f, Edge e)
     {
         if (f.axis == -2 && Dim != 3) throw BadInput("face", "front or back", "left, right, bottom or top below 3D");
         const int axis = f.axis == -2 ? 1 : f.axis == -1 ? Dim - 1 : f.axis;

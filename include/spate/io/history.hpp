@@ -29,13 +29,13 @@ namespace detail {
 /// One line of a table, its cells separated by commas; numbers as the shortest decimal that reads back as the same.
 class Row {
 public:
-    void add(std::string_view word) { (text_ += text_.empty() ? "" : ",") += word; }
-    void add(double value)
+    [[gnu::cold]] void add(std::string_view word) { (text_ += text_.empty() ? "" : ",") += word; }
+    [[gnu::cold]] void add(double value)
     {
         std::array<char, 32> cell{};
         add(std::string_view(cell.data(), std::to_chars(cell.data(), cell.data() + cell.size(), value).ptr));
     }
-    void add(std::int64_t value) { add(std::string_view(std::to_string(value))); }
+    [[gnu::cold]] void add(std::int64_t value) { add(std::string_view(std::to_string(value))); }
     template <int Dim>
     void add(Vec<Dim, double> const& value)
     {
@@ -50,7 +50,7 @@ private:
 /// "front" for a number, "force_x", "force_y", ... for a vector.
 inline std::vector<std::string> headings(std::string const& name, double) { return {name}; }
 template <int Dim>
-std::vector<std::string> headings(std::string const& name, Vec<Dim, double>)
+[[gnu::cold]] std::vector<std::string> headings(std::string const& name, Vec<Dim, double>)
 {
     std::vector<std::string> all;
     for (int c = 0; c < Dim; ++c) all.push_back(name + "_" + "xyz"[c]);
@@ -65,7 +65,7 @@ template <class... Column>
 class History {
 public:
     /// \param every  interval between two rows [s]; 0: a row each step
-    History(std::filesystem::path const& directory, double every, Column... columns)
+    [[gnu::cold]] History(std::filesystem::path const& directory, double every, Column... columns)
         : file_(directory / "history.csv"), tmp_(file_.string() + ".tmp"), every_(every),
           columns_(std::move(columns)...)
     {
@@ -78,7 +78,7 @@ public:
         if (out_.is_open()) out_.close(); // cut short: the rows stay in the temporary file
     }
 
-    void begin(auto& scene)
+    [[gnu::cold]] void begin(auto& scene)
     {
         const std::string head = heading(scene);
         errno = 0;
@@ -91,7 +91,7 @@ public:
     {
         if (every_.due(scene.time())) write(scene);
     }
-    void end(auto& scene)
+    [[gnu::cold]] void end(auto& scene)
     {
         if (!scene.stopped() && written_ != scene.steps()) write(scene);
         out_.close();
@@ -132,7 +132,7 @@ private:
                    columns_);
         return row.text();
     }
-    static void each_of(std::vector<std::string> const& names, auto const& f)
+    [[gnu::cold]] static void each_of(std::vector<std::string> const& names, auto const& f)
     {
         for (auto const& name : names) f(name);
     }
@@ -156,7 +156,7 @@ private:
         line(row.text());
         written_ = scene.steps();
     }
-    void line(std::string const& text)
+    [[gnu::cold]] void line(std::string const& text)
     {
         out_ << text << '\n' << std::flush;
         if (!out_) throw OutputError(file_, errno);

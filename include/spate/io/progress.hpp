@@ -60,7 +60,10 @@ private:
         }
         else if (!last && now - shown_at_ < std::chrono::milliseconds(200)) return;
         shown_at_ = now;
-        const double spent = std::chrono::duration<double>(now - start_).count();
+        show(time, step, done, std::chrono::duration<double>(now - start_).count());
+    }
+    [[gnu::cold]] void show(double time, std::int64_t step, double done, double spent) const
+    {
         std::string text(120, '\0');
         const int n =
             std::snprintf(text.data(), text.size(), "%3.0f %%  t = %.4g s  step %lld  %s left", 100 * done, time,
@@ -70,7 +73,7 @@ private:
         else *out_ << text << '\n' << std::flush;
     }
     /// "1 h 02 min", "3 min 20 s", "45 s".
-    static std::string duration(double seconds)
+    [[gnu::cold]] static std::string duration(double seconds)
     {
         const auto s = static_cast<long long>(std::min(seconds, 1e9) + 0.5);
         const auto two = [](long long n) { return (n < 10 ? "0" : "") + std::to_string(n); };

@@ -37,7 +37,7 @@ constexpr auto shown_of(Fields<F...>)
 
 /// The particles of a species in the order of their ids: the same file whoever ran the scene.
 template <class Particles>
-std::vector<std::size_t> by_id(Particles const& p)
+[[gnu::cold]] std::vector<std::size_t> by_id(Particles const& p)
 {
     std::vector<std::size_t> order(p.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -46,7 +46,7 @@ std::vector<std::size_t> by_id(Particles const& p)
 }
 
 template <class Particles, class F>
-void append(Column& column, Particles const& p, std::size_t i, F field)
+[[gnu::cold]] void append(Column& column, Particles const& p, std::size_t i, F field)
 {
     if constexpr (!Particles::template has<F>)
         column.values.insert(column.values.end(), std::size_t(column.components),

@@ -19,7 +19,7 @@ struct Watch {
     double warn = 0.01;    ///< rise of total energy over its reference that is told [-]
     double stop = 0.05;    ///< ... that ends the run [-]
 
-    void check() const
+    [[gnu::cold]] void check() const
     {
         require(energy_every >= 1, "Watch.energy_every", energy_every, "1 or above [steps]");
         require(warn > 0, "Watch.warn", warn, "a number above 0 [-]");
@@ -34,7 +34,7 @@ struct NoWatch {
 namespace detail {
 /// Facts of one particle of the mobile species.
 template <class P>
-StopFacts facts_of(P const& p, std::size_t i)
+[[gnu::cold]] StopFacts facts_of(P const& p, std::size_t i)
 {
     StopFacts f;
     f.species = 0;
@@ -54,7 +54,7 @@ std::size_t first_by_id(P const& p, auto const& is)
 }
 /// The first field of particle i that is not finite: its name and value.
 template <class P>
-std::pair<std::string, double> not_finite(P const& p, std::size_t i)
+[[gnu::cold]] std::pair<std::string, double> not_finite(P const& p, std::size_t i)
 {
     std::pair<std::string, double> found{"", 0};
     for_each(P::fields, [&]<class F>(F f) {
@@ -65,11 +65,22 @@ std::pair<std::string, double> not_finite(P const& p, std::size_t i)
     });
     return found;
 }
+template <class P>
+[[noreturn, gnu::cold]] void stop_outside(P const& p, std::size_t i, double beyond, double thick, std::int64_t step,
+                                          double time)
+{
+    StopFacts f = facts_of(p, i);
+    f.step = step, f.time = time;
+    f.quantity = "the distance beyond a wall face [m]";
+    f.value = beyond;
+    f.limit = thick;
+    throw OutOfDomain(f);
+}
 } // namespace detail
 
 /// Throws NonFinite for the first particle with a value that is not finite; nothing if there is none.
 template <class P>
-void stop_if_not_finite(P const& p, std::int64_t step, double time)
+[[gnu::cold]] void stop_if_not_finite(P const& p, std::int64_t step, double time)
 {
     const std::size_t i =
         detail::first_by_id(p, [&](std::size_t k) { return !detail::not_finite(p, k).first.empty(); });
@@ -88,13 +99,8 @@ void stop_if_outside(P const& p, B const& boundary, double range, std::int64_t s
     if (thick <= 0) return;
     const std::size_t i = detail::first_by_id(
         p, [&](std::size_t k) { return boundary.template beyond<P::dim>(p.at(position, k)) > thick; });
-    if (i == p.size()) return;
-    StopFacts f = detail::facts_of(p, i);
-    f.step = step, f.time = time;
-    f.quantity = "the distance beyond a wall face [m]";
-    f.value = boundary.template beyond<P::dim>(p.at(position, i));
-    f.limit = thick;
-    throw OutOfDomain(f);
+    if (i < p.size())
+        detail::stop_outside(p, i, boundary.template beyond<P::dim>(p.at(position, i)), thick, step, time);
 }
 
 } // namespace spate

@@ -14,7 +14,7 @@ struct Gravity {
     static constexpr Fields adds{acceleration};
     Vec<Dim, double> g; ///< [m/s^2]
 
-    void check() const
+    [[gnu::cold]] void check() const
     {
         for (int c = 0; c < Dim; ++c) require_finite("Gravity.g[" + std::to_string(c) + "]", g[c], "m/s^2");
     }

@@ -70,7 +70,7 @@ struct Physics {
     Record<dim, double, std::remove_cv_t<U>> uniforms{}; ///< their values
 
     /// Throws BadInput for the first parameter out of range.
-    void check() const
+    [[gnu::cold]] void check() const
     {
         interaction.check();
         detail::each_in(terms, [](auto const& t) {

@@ -34,7 +34,7 @@ struct Smoothing {
     [[nodiscard]] double range() const { return K::radius * kernel.h; }
     /// Length of the time-step criteria [m].
     [[nodiscard]] double length() const { return kernel.h; }
-    void check() const { require_positive("kernel.h", kernel.h, "m"); }
+    [[gnu::cold]] void check() const { require_positive("kernel.h", kernel.h, "m"); }
 
     template <class V>
     [[gnu::always_inline]] auto pair(auto const& i, auto const& j) const

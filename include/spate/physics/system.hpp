@@ -339,7 +339,7 @@ public:
         return total.value();
     }
     /// Bytes of all that is kept for the particles: columns, records, lists, bins.
-    [[nodiscard]] std::size_t bytes() const
+    [[nodiscard, gnu::cold]] std::size_t bytes() const
     {
         std::size_t b = 0;
         each_species([&](auto s) {
@@ -351,7 +351,7 @@ public:
     }
     /// Sum modulo 2^64 over all particles of a hash of (species, id, bits of the evolving fields), and over all pairs of
     /// (ids, bits of what terms keep of them).
-    [[nodiscard]] std::uint64_t state_hash() const
+    [[nodiscard, gnu::cold]] std::uint64_t state_hash() const
     {
         std::uint64_t total = 0;
         each_species([&](auto s) {
@@ -392,7 +392,7 @@ public:
         return total;
     }
     /// Makes room for the particles that have been added since.
-    void resized()
+    [[gnu::cold]] void resized()
     {
         each_species([&](auto s) {
             auto& x = species<s()>();
@@ -544,6 +544,12 @@ private:
         };
         (one(std::integral_constant<std::size_t, t>{}), ...);
     }
+    /// Not inlined: compiled once, not for each component of each field.
+    template <std::size_t stride>
+    [[gnu::noinline]] static void pack_column(T const* from, T* to, std::size_t first, std::size_t last)
+    {
+        for (std::size_t i = first; i < last; ++i) to[i * stride] = from[i];
+    }
     /// Copies fields of a species into its records; then the sentinel and the images.
     template <int s, Mask copied>
     void pack()
@@ -562,8 +568,7 @@ private:
                 for_each(M::template fields<copied>(), [&]<class F>(F f) {
                     for (int c = 0; c < components<F, dim>; ++c) {
                         T const* from = x.particles.column(f)[std::size_t(c)].data();
-                        T* to = data + std::size_t(L::template offset<F> + c);
-                        for (std::size_t i = first; i < last; ++i) to[i * stride] = from[i];
+                        pack_column<stride>(from, data + std::size_t(L::template offset<F> + c), first, last);
                     }
                 });
             }

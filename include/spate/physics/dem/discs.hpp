@@ -28,7 +28,7 @@ struct Round {
 
     [[nodiscard]] double range() const { return 2 * largest; }
     [[nodiscard]] double length() const { return largest; }
-    void check() const { require_positive("radius", largest, "m"); }
+    [[gnu::cold]] void check() const { require_positive("radius", largest, "m"); }
 
     template <class V>
     [[gnu::always_inline]] auto pair(auto const& i, auto const& j) const

@@ -20,7 +20,7 @@ struct ArtificialViscosity {
     double alpha;           ///< [-], Monaghan 1992: 0.01 to 0.1
     double c0 = from_model; ///< speed of sound [m/s]
 
-    void check() const
+    [[gnu::cold]] void check() const
     {
         require_non_negative("ArtificialViscosity.alpha", alpha, "-");
         require_positive("ArtificialViscosity.c0", c0, "m/s");

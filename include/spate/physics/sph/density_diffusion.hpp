@@ -23,7 +23,7 @@ struct MolteniColagrossi {
     double delta = 0.1;     ///< [-], 0.05 to 0.2
     double c0 = from_model; ///< speed of sound [m/s]
 
-    void check() const
+    [[gnu::cold]] void check() const
     {
         require_non_negative("MolteniColagrossi.delta", delta, "-");
         require_positive("MolteniColagrossi.c0", c0, "m/s");
@@ -56,7 +56,7 @@ struct Fourtakas {
     Vec<Dim, double> g{};     ///< gravity [m/s^2]
     double curvature = 0;     ///< gamma - 1 of the equation of state: 6 for Tait, 0 for a linear one
 
-    void check() const
+    [[gnu::cold]] void check() const
     {
         require_non_negative("DensityDiffusion.delta", delta, "-");
         require_positive("DensityDiffusion.c0", c0, "m/s");

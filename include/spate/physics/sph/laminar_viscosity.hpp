@@ -18,7 +18,7 @@ struct LaminarViscosity {
     double mu;         ///< dynamic viscosity [Pa s]
     double eps = 0.01; ///< keeps the quotient finite at r = 0 [-]; costs 1 to 2 % of mu; 0 is allowed off coincidence
 
-    void check() const
+    [[gnu::cold]] void check() const
     {
         require_non_negative("LaminarViscosity.mu", mu, "Pa s");
         require_non_negative("LaminarViscosity.eps", eps, "-");

@@ -19,7 +19,7 @@ struct LinearEos {
     double rho0; ///< reference density [kg/m^3]
     double c0;   ///< speed of sound [m/s]
 
-    void check() const
+    [[gnu::cold]] void check() const
     {
         require_positive("LinearEos.rho0", rho0, "kg/m^3");
         require_positive("LinearEos.c0", c0, "m/s");

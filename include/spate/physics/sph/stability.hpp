@@ -24,7 +24,7 @@ namespace detail {
 /// Coefficient of V F (1 - cos k.x) in the decay of a velocity or density wave along e, summed over the terms; a term
 /// that damps says `acoustic_damping(rho0, h, r2, xe2)` [m^2/s], xe = x . e.
 template <class P>
-double damping_of(P const& physics, double rho0, double h, double r2, double xe2)
+[[gnu::cold]] double damping_of(P const& physics, double rho0, double h, double r2, double xe2)
 {
     double sum = 0;
     each_in(physics.terms, [&](auto const& t) {
@@ -34,7 +34,7 @@ double damping_of(P const& physics, double rho0, double h, double r2, double xe2
 }
 /// f(x) for each point of a cubic lattice within a range, the origin left out.
 template <int Dim>
-void each_lattice_point(double spacing, double range, auto const& f)
+[[gnu::cold]] void each_lattice_point(double spacing, double range, auto const& f)
 {
     const int n = int(range / spacing);
     const int ny = Dim > 1 ? n : 0, nz = Dim > 2 ? n : 0;

@@ -22,7 +22,7 @@ struct Tait {
 
     static constexpr double gamma = 7;
     [[nodiscard]] double stiffness() const { return rho0 * c0 * c0 / gamma; } ///< B [Pa]
-    void check() const
+    [[gnu::cold]] void check() const
     {
         require_positive("Tait.rho0", rho0, "kg/m^3");
         require_positive("Tait.c0", c0, "m/s");

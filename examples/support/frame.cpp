@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/frame.hpp"
+
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+
+#include <spate/core/errors.hpp>
+#include <spate/io/detail/replace_file.hpp>
+
+#include "support/interrupt.hpp"
+#include "support/passive.hpp"
+
+namespace example {
+
+namespace {
+Options with_output(Options o, std::string const& name)
+{
+    if (o.output.empty()) o.output = "out/" + name;
+    return o;
+}
+} // namespace
+
+Frame::Frame(std::string name, std::string const& about, Options defaults)
+    : name_(std::move(name)), options_(with_output(std::move(defaults), name_)), line_(name_, about, options_)
+{}
+
+int Frame::main(int argc, char** argv, std::function<void()> const& scene)
+{
+    wait_passively(argv);
+    try {
+        line_.parse(argc, argv);
+        catch_interrupts();
+        scene();
+        return code_;
+    }
+    catch (Exit const& e) {
+        return e.code;
+    }
+    catch (spate::OutputError const& e) {
+        std::cerr << e.what() << '\n';
+        return 4;
+    }
+    catch (std::invalid_argument const& e) { // BadInput, and what the writers refuse
+        std::cerr << e.what() << '\n';
+        return 2;
+    }
+    catch (std::bad_alloc const&) {
+        std::cerr << "spate: there is not enough memory for this scene; take a larger spacing\n";
+        return 2;
+    }
+}
+
+void Frame::require_writable(std::filesystem::path const& directory)
+{
+    try {
+        std::error_code error;
+        std::filesystem::create_directories(directory, error);
+        if (error) throw spate::OutputError(directory, error.value());
+        spate::io::detail::Temporary probe(directory / "summary.json");
+    }
+    catch (spate::OutputError const& e) {
+        throw spate::BadInput("output", directory.string(), std::string("a directory to write in (") + e.what() + ")");
+    }
+}
+
+void Frame::interrupted(Summary& s, std::int64_t step, double time)
+{
+    s.stop = "Interrupted";
+    s.stop_message = std::string("spate: interrupted by ") + (interrupt() == SIGINT ? "SIGINT" : "SIGTERM") +
+                     " at step " + std::to_string(step) + ", t = " + spate::text(time) +
+                     " s; the last state has been written";
+    s.stop_facts.step = step, s.stop_facts.time = time;
+    code_ = 128 + interrupt();
+}
+
+void Frame::ended(Summary const& s, Talk const& talk, std::filesystem::path const& directory,
+                  std::filesystem::path const& picture) const
+{
+    if (code_ != 0) std::cerr << s.stop_message << '\n';
+    s.write(directory / "summary.json");
+    talk.closing(s, directory, picture);
+}
+
+void Frame::Talk::opening(Summary const& s) const
+{
+    if (quiet) return;
+    std::string of;
+    for (auto const& [species, count] : s.particles)
+        of += (of.empty() ? "" : " + ") + std::to_string(count) + " " + species;
+    std::printf("%s: %s = %zu particles\n", s.scene.c_str(), of.c_str(), s.total());
+    for (auto const& [role, name] : s.composition) std::printf("  %-12s %s\n", role.c_str(), name.c_str());
+    std::printf("  %-12s %d\n", "threads", s.threads);
+    std::fflush(stdout);
+}
+
+void Frame::Talk::first_step(double dt, std::string_view criterion) const
+{
+    if (quiet) return;
+    std::printf("dt = %.4g s at the start, by the %s criterion\n", dt, std::string(criterion).c_str());
+    std::fflush(stdout);
+}
+
+void Frame::Talk::warn(std::vector<std::string> const& all)
+{
+    for (; told < all.size(); ++told) std::cerr << "warning: " << all[told] << '\n';
+}
+
+void Frame::Talk::closing(Summary const& s, std::filesystem::path const& directory,
+                          std::filesystem::path const& picture) const
+{
+    if (quiet) return;
+    std::printf("%s: t = %.4g s after %lld steps in %.1f s", s.stop.c_str(), s.time, static_cast<long long>(s.steps),
+                s.wall);
+    if (s.steps > 0)
+        std::printf(" (%.1f ns a particle-step, %.2f ns a pair)", s.ns_per_particle_step(), s.ns_per_pair());
+    std::printf("\n");
+    if (s.mach > 0)
+        std::printf("largest Mach number %.3f, largest density change %.2f %%\n", s.mach, 100 * s.density_change);
+    std::printf("total energy %.6g J at the start, %.6g J at the end: %+.2f %% of the reference %.6g J\n",
+                s.energy_start, s.energy_end, 100 * s.energy_drift(), s.energy_reference);
+    std::printf("picture: %s\nfiles in %s: summary.json", picture.c_str(), directory.c_str());
+    for (auto const& file : s.files) std::printf(" %s", file.c_str());
+    std::printf("\n");
+}
+
+} // namespace example

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief What an example has around its scene whatever the scene is: command line, exit code, what is printed.
+///        Compiled once for all compositions.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "support/options.hpp"
+#include "support/summary.hpp"
+
+namespace example {
+
+class Frame {
+public:
+    Frame(std::string name, std::string const& about, Options defaults);
+    Options const& options() const { return options_; }
+    CommandLine& command_line() { return line_; }
+
+    /// 0 ok, 2 bad input, 3 a typed stop, 4 an output could not be written, 128 + signal.
+    int main(int argc, char** argv, std::function<void()> const& scene);
+
+protected:
+    /// Before step 0 a directory that cannot be written in is bad input; later it is an OutputError.
+    static void require_writable(std::filesystem::path const& directory);
+    void interrupted(Summary& s, std::int64_t step, double time);
+    /// What is printed on standard output.
+    struct Talk {
+        bool quiet;
+        std::size_t told = 0; ///< warnings
+
+        void opening(Summary const& s) const;
+        void begin(auto const& scene) { warn(scene.report().warnings); }
+        void step(auto const& scene)
+        {
+            if (scene.report().steps == 1) first_step(scene.dt(), scene.criterion());
+            warn(scene.report().warnings);
+        }
+        void end(auto const& scene) { warn(scene.report().warnings); }
+        void first_step(double dt, std::string_view criterion) const;
+        /// Warnings are errors in waiting: they are told even to the quiet.
+        void warn(std::vector<std::string> const& all);
+        void closing(Summary const& s, std::filesystem::path const& directory,
+                     std::filesystem::path const& picture) const;
+    };
+    void ended(Summary const& s, Talk const& talk, std::filesystem::path const& directory,
+               std::filesystem::path const& picture) const;
+
+    std::string name_;
+    Options options_;
+    CommandLine line_;
+    int code_ = 0;
+};
+
+} // namespace example
