@@ -75,11 +75,12 @@ private:
         using M = typename Scene::Engine::M;
         constexpr bool fluid = spate::has_equation_of_state<std::remove_cvref_t<decltype(scene.physics())>>;
         scene.system().each_species([&](auto k) {
-            const std::string species = k() != 0 ? "wall" : fluid ? "fluid" : "grain";
-            s.particles.emplace_back(species, scene.system().template species<k()>().particles.size());
             Words words;
             for (auto name : spate::names(M::template stored<k()>())) words.emplace_back(name);
-            s.fields.emplace_back(species, words);
+            s.add_species(k() != 0 ? "wall"
+                          : fluid  ? "fluid"
+                                   : "grain",
+                          scene.system().template species<k()>().particles.size(), words);
         });
         return s;
     }
@@ -90,15 +91,15 @@ private:
         auto name = []<class T>(T const&) { return type_name(typeid(T).name()); };
         Summary s = about_species(sim, {});
         s.scene = name_;
-        s.composition = {{"dimensions", std::to_string(Scene::dim)},
-                         {"interaction", name(sim.physics().interaction)},
-                         {"integrator", sim.integrator().name},
-                         {"boundary", name(sim.system().boundary())},
-                         {"backend", sim.system().backend().name},
-                         {"precision", type_name(typeid(typename Engine::T).name())},
-                         {"pack", std::to_string(spate::width<typename Engine::V>)},
-                         {"cell", std::to_string(options_.cell)}};
-        if constexpr (Engine::species_count == 2) s.composition.emplace_back("walls", scene::wall_text);
+        s.add_choice("dimensions", std::to_string(Scene::dim));
+        s.add_choice("interaction", name(sim.physics().interaction));
+        s.add_choice("integrator", sim.integrator().name);
+        s.add_choice("boundary", name(sim.system().boundary()));
+        s.add_choice("backend", sim.system().backend().name);
+        s.add_choice("precision", type_name(typeid(typename Engine::T).name()));
+        s.add_choice("pack", std::to_string(spate::width<typename Engine::V>));
+        s.add_choice("cell", std::to_string(options_.cell));
+        if constexpr (Engine::species_count == 2) s.add_choice("walls", scene::wall_text);
         std::apply([&](auto const&... t) { (s.terms.push_back(name(t)), ...); }, sim.system().terms());
         s.threads = sim.system().backend().threads();
         s.seed = options_.seed;

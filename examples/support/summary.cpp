@@ -93,6 +93,14 @@ Json detail_of(Summary const& s)
 
 } // namespace
 
+void Summary::add_species(std::string const& species, std::size_t count, Words const& its_fields)
+{
+    particles.emplace_back(species, count);
+    fields.emplace_back(species, its_fields);
+}
+
+void Summary::add_choice(std::string const& role, std::string const& choice) { composition.emplace_back(role, choice); }
+
 std::size_t Summary::total() const
 {
     std::size_t n = 0;

@@ -43,6 +43,9 @@ struct Summary {
     [[nodiscard]] double ns_per_particle_step() const;
     [[nodiscard]] double ns_per_pair() const;
 
+    void add_species(std::string const& species, std::size_t count, Words const& its_fields);
+    void add_choice(std::string const& role, std::string const& choice);
+
     /// Throws OutputError.
     void write(std::filesystem::path const& file) const;
 };

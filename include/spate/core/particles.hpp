@@ -33,6 +33,13 @@ template <class T>
 {
     std::fill(a.begin() + std::ptrdiff_t(first), a.end(), value);
 }
+/// New elements, and old ones from a place on, become zero.
+template <class T>
+[[gnu::noinline]] void resize(Array<T>& a, std::size_t n, std::size_t zero_from)
+{
+    a.resize(n);
+    std::fill(a.begin() + std::ptrdiff_t(zero_from), a.end(), T(0));
+}
 } // namespace detail
 
 template <int Dim, Real T, class Stored, class Uniforms>
@@ -56,11 +63,9 @@ public:
         const std::size_t old = size();
         id_.resize(n);
         for (std::size_t i = old; i < n; ++i) id_[i] = next_id_++;
+        const std::size_t whole = (n + std::size_t(2 * padding) - 1) / std::size_t(padding) * std::size_t(padding);
         for_each(fields, [&](auto f) {
-            for (auto& a : column(f)) {
-                a.resize((n + std::size_t(2 * padding) - 1) / std::size_t(padding) * std::size_t(padding));
-                detail::fill_from(a, std::min(old, n), T(0)); // the padding was not zero
-            }
+            for (auto& a : column(f)) detail::resize(a, whole, std::min(old, n)); // the padding was not zero
         });
     }
     /// The Dim (or 1) columns of a field; column(f)[c][i] is component c of particle i.

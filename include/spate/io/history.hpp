@@ -4,12 +4,12 @@
 ///        Not the state of the particles: those are snapshots.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
 #include <filesystem>
 #include <fstream>
-#include <set>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -112,14 +112,15 @@ private:
     [[gnu::cold]] std::string heading(Scene& scene) const
     {
         detail::Row row;
-        std::set<std::string> taken;
+        std::vector<std::string> taken;
         auto add = [&](std::string const& name) {
             if (name.empty() || name.find_first_of(",\"\n\r") != std::string::npos)
                 throw BadInput("the name of a column of history.csv", "\"" + name + "\"",
                                "a word without commas and quotes");
-            if (!taken.insert(name).second)
+            if (std::find(taken.begin(), taken.end(), name) != taken.end())
                 throw BadInput("the name of a column of history.csv", "\"" + name + "\" twice",
                                "a name of its own for each");
+            taken.push_back(name);
             row.add(name);
         };
         for (auto* name : {"step", "t", "dt", "dt_criterion", "kinetic", "potential"}) add(name);

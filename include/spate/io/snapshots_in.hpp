@@ -36,12 +36,11 @@ constexpr auto shown_of(Fields<F...>)
 }
 
 /// The particles of a species in the order of their ids: the same file whoever ran the scene.
-template <class Particles>
-[[gnu::cold]] std::vector<std::size_t> by_id(Particles const& p)
+[[gnu::cold]] inline std::vector<std::size_t> by_id(std::vector<std::uint32_t> const& id)
 {
-    std::vector<std::size_t> order(p.size());
+    std::vector<std::size_t> order(id.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return p.id()[a] < p.id()[b]; });
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return id[a] < id[b]; });
     return order;
 }
 
@@ -72,7 +71,7 @@ template <class Scene>
     for_each(fields, [&]<class F>(F) { cloud.columns.push_back({std::string(F::name), F::rank == 0 ? 1 : 3, {}}); });
     scene.system().each_species([&](auto s) {
         auto const& p = scene.system().template species<s()>().particles;
-        for (const std::size_t i : detail::by_id(p)) {
+        for (const std::size_t i : detail::by_id(p.id())) {
             const auto x = p.at(position, i);
             for (int c = 0; c < 3; ++c) cloud.points.push_back(c < Mobile::dim ? float(x[c]) : 0.0F);
             cloud.id.push_back(p.id()[i]);

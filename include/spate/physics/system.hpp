@@ -10,6 +10,7 @@
 #include "spate/physics/model.hpp"
 #include "spate/physics/sweep.hpp"
 
+#include <functional>
 #include <mutex>
 
 namespace spate {
@@ -291,16 +292,9 @@ public:
     /// The exact sum of f(i) over the mobile particles, whoever adds.
     double sum(auto const& f) const
     {
-        ExactSum total;
-        std::mutex lock;
-        const std::size_t n = mobile().size();
-        backend_.for_each((n + task - 1) / task, [&](std::size_t k) {
-            ExactSum mine;
-            for (std::size_t i = k * task, end = std::min(n, (k + 1) * task); i < end; ++i) mine.add(f(i));
-            const std::lock_guard hold(lock);
-            total += mine;
+        return sum_of([&](std::size_t first, std::size_t last, double* to) {
+            for (std::size_t i = first; i < last; ++i) *to++ = f(i);
         });
-        return total.value();
     }
     /// Half the sum over directed pairs of what the terms of contact store, energy(ij) [J]; lists must be current.
     [[nodiscard]] double pair_energy() const
@@ -440,6 +434,23 @@ private:
     static constexpr bool has_pair_energy = []<class... X>(std::tuple<X...> const*) {
         return (false || ... || requires { X::stores_energy; });
     }(static_cast<typename M::Terms const*>(nullptr));
+    /// The exact sum of what `fill` writes, a stretch of particles at a time; compiled once for all that is summed.
+    double sum_of(std::function<void(std::size_t, std::size_t, double*)> const& fill) const
+    {
+        ExactSum total;
+        std::mutex lock;
+        const std::size_t n = mobile().size();
+        backend_.for_each((n + task - 1) / task, [&](std::size_t k) {
+            std::array<double, task> addend;
+            const std::size_t first = k * task, last = std::min(n, first + task);
+            fill(first, last, addend.data());
+            ExactSum mine;
+            for (std::size_t i = 0; i < last - first; ++i) mine.add(addend[i]);
+            const std::lock_guard hold(lock);
+            total += mine;
+        });
+        return total.value();
+    }
     static auto double_record(auto const& p, std::size_t i)
     {
         Record<dim, double, Set<(Interaction::reads & ParticlesOf<0>::fields)>> r;
