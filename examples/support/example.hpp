@@ -47,7 +47,7 @@ public:
         spate::io::Progress progress(options_.until, options_.steps, spate::io::Progress::usual(options_.quiet));
         scene.interrupt_when([] { return interrupt() != 0; });
 
-        Summary summary = about(scene);
+        auto& summary = about(scene);
         summary.files = {history.file().filename(), name_ + ".hdf.series", name_ + "_*.hdf",
                          pictures.file().filename()};
         talk.opening(summary);
@@ -70,7 +70,7 @@ public:
 
 private:
     template <class Scene>
-    [[gnu::cold]] static Summary about_species(Scene const& scene, Summary s)
+    [[gnu::cold]] static void about_species(Scene const& scene, Summary& s)
     {
         using M = typename Scene::Engine::M;
         constexpr bool fluid = spate::has_equation_of_state<std::remove_cvref_t<decltype(scene.physics())>>;
@@ -82,14 +82,14 @@ private:
                                    : "grain",
                           scene.system().template species<k()>().particles.size(), words);
         });
-        return s;
     }
     template <class Scene>
-    [[gnu::cold]] Summary about(Scene const& sim) const
+    [[gnu::cold]] Summary& about(Scene const& sim)
     {
         using Engine = typename Scene::Engine;
         auto name = []<class T>(T const&) { return type_name(typeid(T).name()); };
-        Summary s = about_species(sim, {});
+        Summary& s = summary_;
+        about_species(sim, s);
         s.scene = name_;
         s.add_choice("dimensions", std::to_string(Scene::dim));
         s.add_choice("interaction", name(sim.physics().interaction));

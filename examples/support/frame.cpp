@@ -24,6 +24,7 @@ Options with_output(Options o, std::string const& name)
 Frame::Frame(std::string name, std::string const& about, Options defaults)
     : name_(std::move(name)), options_(with_output(std::move(defaults), name_)), line_(name_, about, options_)
 {}
+Frame::~Frame() = default;
 
 int Frame::main(int argc, char** argv, std::function<void()> const& scene)
 {

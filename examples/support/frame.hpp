@@ -19,6 +19,9 @@ namespace example {
 class Frame {
 public:
     Frame(std::string name, std::string const& about, Options defaults);
+    Frame(Frame const&) = delete;
+    Frame& operator=(Frame const&) = delete;
+    ~Frame();
     Options const& options() const { return options_; }
     CommandLine& command_line() { return line_; }
 
@@ -54,6 +57,7 @@ protected:
     std::string name_;
     Options options_;
     CommandLine line_;
+    Summary summary_;
     int code_ = 0;
 };
 

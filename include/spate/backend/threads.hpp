@@ -7,6 +7,8 @@
 
 #include <cstddef>
 #include <exception>
+#include <memory>
+#include <type_traits>
 
 #include <omp.h>
 
@@ -25,16 +27,25 @@ struct Threads {
     }
     void for_each(std::size_t tasks, auto const& run) const
     {
+        using Run = std::remove_cvref_t<decltype(run)>;
+        share(
+            tasks, [](void const* what, std::size_t k) { (*static_cast<Run const*>(what))(k); }, std::addressof(run));
+    }
+
+private:
+    /// Calls task(what, k) for each k; compiled once, whatever the task.
+    [[gnu::noinline]] void share(std::size_t tasks, void (*task)(void const*, std::size_t), void const* what) const
+    {
         const int team = threads();
         if (team == 1 || tasks < 2) {
-            for (std::size_t k = 0; k < tasks; ++k) task(run, k);
+            for (std::size_t k = 0; k < tasks; ++k) task(what, k);
             return;
         }
         std::exception_ptr first;
 #pragma omp parallel for schedule(dynamic) num_threads(team)
         for (std::size_t k = 0; k < tasks; ++k) {
             try {
-                task(run, k);
+                task(what, k);
             }
             catch (...) {
 #pragma omp critical(spate_threads_exception)
@@ -43,10 +54,6 @@ struct Threads {
         }
         if (first) std::rethrow_exception(first);
     }
-
-private:
-    /// Not inlined: compiled once for one thread and for many.
-    [[gnu::noinline]] static void task(auto const& run, std::size_t k) { run(k); }
 };
 
 } // namespace spate

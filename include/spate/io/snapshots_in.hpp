@@ -48,8 +48,7 @@ template <class Particles, class F>
 [[gnu::cold]] void append(Column& column, Particles const& p, std::size_t i, F field)
 {
     if constexpr (!Particles::template has<F>)
-        column.values.insert(column.values.end(), std::size_t(column.components),
-                             std::numeric_limits<float>::quiet_NaN());
+        for (int c = 0; c < column.components; ++c) column.values.push_back(std::numeric_limits<float>::quiet_NaN());
     else if constexpr (F::rank == 0) column.values.push_back(float(p.at(field, i)));
     else {
         const auto v = p.at(field, i);
