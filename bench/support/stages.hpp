@@ -94,9 +94,8 @@ void build_lists(System const& s, Lists<System::dim>& lists)
     auto const& x = s.template species<0>();
     using P = std::remove_cvref_t<decltype(x.particles)>;
     constexpr int record = std::remove_cvref_t<decltype(x.packed)>::L::stride;
-    const double range = s.physics().interaction.range(), reach = range * (1 + s.neighbours().skin);
-    Lists<System::dim>::build(x.particles, x.bins, s.grid(), width<typename System::V>, s.neighbours().window, reach,
-                              range, s.backend(),
+    Lists<System::dim>::build(x.particles, x.bins, s.grid(), width<typename System::V>, s.neighbours().window,
+                              s.physics().interaction.range(), s.template skins<0>(), 0, s.backend(),
                               typename Lists<System::dim>::template From<P>{lists, x.particles, x.bins, record, true});
 }
 

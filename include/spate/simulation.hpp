@@ -196,11 +196,14 @@ public:
         const Extremes e = system_.template extremes<needs_acceleration>();
         look(e);
         choose_dt(o, e);
-        if (system_.stale(e, I::ahead_velocity * dt_, I::ahead_acceleration * dt_ * dt_)) {
+        if (stale(e)) {
             if constexpr (W::on)
                 stop_if_outside(system_.mobile(), system_.boundary(), physics().interaction.range(), step_, time_);
             rebuild();
-            stop_if_outrun(e);
+            Extremes unmoved = e;
+            unmoved.moved = 0, unmoved.least_move = {}, unmoved.most_move = {};
+            if (stale(unmoved)) rebuild(true);
+            if (stale(unmoved)) stop_outrun(unmoved);
         }
         if constexpr (W::on)
             if (step_ % watch_.energy_every == 0) look_at_energy();
@@ -378,7 +381,7 @@ private:
     }
     [[gnu::cold]] Grid<dim> make_grid() const
     {
-        const int by_dimension[] = {64, 16, 4};
+        const int by_dimension[] = {64, 16, 6};
         const int cell = system_.backend().cell > 0 ? system_.backend().cell : by_dimension[dim - 1];
         auto box = system_.boundary().template box<dim>();
         if (!box) {
@@ -393,10 +396,10 @@ private:
         return Grid<dim>(*box, system_.boundary().template edges<dim>(), physics().interaction.range() * n.bin_edge(),
                          n.finer, cell);
     }
-    void rebuild()
+    void rebuild(bool wide = false)
     {
         try {
-            system_.rebuild();
+            system_.rebuild(wide);
         }
         catch (IndexOverflow const& e) {
             stop_index(e.facts());
@@ -466,11 +469,14 @@ private:
                      text(std::numbers::pi / stiffness_.contact_frequency) + " s");
         }
     }
-    /// Lists that do not last one step would miss pairs in silence.
-    [[gnu::cold]] void stop_if_outrun(Extremes e) const
+    /// Whether the lists may miss a pair at the positions of a step of dt.
+    [[nodiscard]] bool stale(Extremes const& e) const
     {
-        e.moved = 0, e.least_move = {}, e.most_move = {};
-        if (!system_.stale(e, I::ahead_velocity * dt_, I::ahead_acceleration * dt_ * dt_)) return;
+        return system_.stale(e, I::ahead_velocity * dt_, I::ahead_acceleration * dt_ * dt_);
+    }
+    /// Lists that do not last one step would miss pairs in silence.
+    [[noreturn, gnu::cold]] void stop_outrun(Extremes const& e) const
+    {
         StopFacts f;
         f.step = step_, f.time = time_, f.quantity = "the way that a pair may close in within one step, over the range";
         f.limit = system_.neighbours().closed_in();

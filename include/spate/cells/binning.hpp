@@ -41,6 +41,8 @@ public:
     {
         return first_[k * std::size_t(bins_of_cell_) + std::size_t(b)];
     }
+    /// The same by the bin's number: bins are numbered cell by cell.
+    [[nodiscard]] std::int32_t first(std::size_t bin) const { return first_[bin]; }
     [[nodiscard]] std::int32_t begin(std::size_t k) const { return first(k, 0); }
     [[nodiscard]] std::int32_t end(std::size_t k) const { return first_[(k + 1) * std::size_t(bins_of_cell_)]; }
     /// Number of the occupied cell at an index, or -1.
@@ -149,7 +151,9 @@ private:
     }
     [[nodiscard]] std::size_t hash(std::uint64_t key) const
     {
-        return std::size_t((key * 0x9E3779B97F4A7C15u) >> 20) & (table_.size() - 1);
+        key *= 0x9E3779B97F4A7C15u;
+        key ^= key >> 32; // the last axis is in the high bits: without this it would have no say
+        return std::size_t((key * 0x9E3779B97F4A7C15u) >> 32) & (table_.size() - 1);
     }
     [[nodiscard]] std::int32_t find(std::uint64_t key) const
     {

@@ -4,18 +4,18 @@
 /// targets the k-th neighbour of each, in the order (global bin, id); short lists end in the sentinel record.
 #pragma once
 
-#include "spate/cells/binning.hpp"
+#include "spate/cells/skins.hpp"
 
 namespace spate {
 
 /// How neighbour lists are kept; part of the scene, since bins fix the order of sums and with it the bits.
 struct Neighbours {
-    double skin = 0.07; ///< reach of a list beyond the range, as a fraction of it [-]
+    double skin = 0.12; ///< reach of a list beyond the range, as a fraction of it, at most [-]
     double bins = 0;    ///< bin edge over the range [-], 0: 1 + skin; at least 1 + skin
     double trigger = 0; ///< lists are rebuilt when a pair may have closed in by this fraction of the range; 0: skin
     int finer = 4;      ///< bins in a range along x [-]
-
-    int window = 16; ///< targets within which those of like list length share a block; changes no bit
+    bool local = true;  ///< skin and trigger are thinner where particles move alike; see Skins
+    int window = 16;    ///< targets within which those of like list length share a block; changes no bit
 
     void check() const
     {
@@ -55,15 +55,15 @@ public:
     };
     /// Builds the lists of a target over all its sources together: their blocks hold the same targets.
     /// \param W  targets in a block    \param window  see Neighbours
-    /// \param reach  range and skin [m]    \param range  [m], for counting pairs
+    /// \param range  [m]    \param beyond  reach beyond range and skin, as a fraction of the range
     template <class P, class Workers, class... Q>
-    static void build(P const& target, Binning<Dim> const& at, Grid<Dim> const& grid, int W, int window, double reach,
-                      double range, Workers const& backend, From<Q>... from)
+    static void build(P const& target, Binning<Dim> const& at, Grid<Dim> const& grid, int W, int window, double range,
+                      Skins<Dim> const& skins, double beyond, Workers const& backend, From<Q>... from)
     {
         (from.lists.begin_build(at.cells(), from.record, from.particles.size()), ...);
-        const Ranges ranges(reach, range, grid);
-        backend.for_each(at.cells(),
-                         [&](std::size_t k) { build_cell(k, target, at, grid, W, window, ranges, from...); });
+        backend.for_each(at.cells(), [&](std::size_t k) {
+            build_cell(k, target, at, grid, W, window, range, skins, beyond, from...);
+        });
         (from.lists.end_build(), ...);
     }
     [[nodiscard]] CellLists const& of_cell(std::size_t k) const { return cell_[k]; }
@@ -114,7 +114,8 @@ private:
         void make_room(std::size_t targets, std::size_t open)
         {
             length.resize(std::max(length.size(), targets));
-            const std::size_t need = near.count + 32; // a selection writes whole registers
+            // A selection writes whole registers; an odd number of cache lines keeps rows out of each other's way.
+            const std::size_t need = ((near.count + 48) / 16 | 1) * 16;
             if (nobody.size() < need) nobody.resize(need);
             if (need <= stride && row.size() >= targets * stride) return;
             std::vector<std::int32_t> grown(need * targets);
@@ -143,7 +144,7 @@ private:
 
     template <class P, class... Q>
     static void build_cell(std::size_t k, P const& target, Binning<Dim> const& at, Grid<Dim> const& grid, int W,
-                           int window, Ranges const& ranges, From<Q> const&... from)
+                           int window, double range, Skins<Dim> const& skins, double beyond, From<Q> const&... from)
     {
         constexpr std::size_t sources = sizeof...(Q);
         static thread_local std::array<Window, sources> open;
@@ -161,7 +162,6 @@ private:
             lists[q]->pairs = 0;
             lists[q]->in_order = window == W;
             open[q].used = 0;
-            open[q].stride = 0;
         }
         int count = 0;
         std::int32_t first = 0; // of the window
@@ -187,19 +187,23 @@ private:
                 gather(open[q].near, corner, source.particles, source.bins, grid);
                 open[q].make_room(std::size_t(window), std::size_t(count));
             });
-            for (std::int32_t i = b0; i < b1; ++i) {
-                double x[std::size_t(Dim)];
-                for (int c = 0; c < Dim; ++c)
-                    x[c] = double(target.column(position)[std::size_t(c)][std::size_t(i)]) -
-                           grid.corner(c, corner[std::size_t(c)]);
-                each_source([&](std::size_t q, auto const& source) {
-                    auto& w = open[q];
-                    w.length[std::size_t(count)] =
-                        w.near.count == 0 ? 0
-                                          : select(w.near, x, grid, ranges, source.same ? i : -1,
-                                                   w.row.data() + std::size_t(count) * w.stride, lists[q]->pairs);
-                });
-                if (++count == window) close_window();
+            const std::size_t patch = k * Skins<Dim>::patches_of_cell(grid) + std::size_t(r * grid.cell());
+            for (int b = 0, i = b0; b < grid.cell(); ++b) {
+                const Ranges ranges(range * (1 + skins.of(patch + std::size_t(b)) + beyond), range, grid);
+                for (const std::int32_t last = at.first(k, r * nx + (b + 1) * grid.finer()); i < last; ++i) {
+                    double x[std::size_t(Dim)];
+                    for (int c = 0; c < Dim; ++c)
+                        x[c] = double(target.column(position)[std::size_t(c)][std::size_t(i)]) -
+                               grid.corner(c, corner[std::size_t(c)]);
+                    each_source([&](std::size_t q, auto const& source) {
+                        auto& w = open[q];
+                        w.length[std::size_t(count)] =
+                            w.near.count == 0 ? 0
+                                              : select(w.near, x, grid, ranges, source.same ? i : -1,
+                                                       w.row.data() + std::size_t(count) * w.stride, lists[q]->pairs);
+                    });
+                    if (++count == window) close_window();
+                }
             }
         }
         if (count > 0) close_window();

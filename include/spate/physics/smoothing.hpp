@@ -27,8 +27,8 @@ struct Smoothing {
                   "spate: Smoothing needs a kernel: dim, h, radius, sigma(), f(q), g(q); see kernel/kernel.hpp");
     static constexpr int dim = K::dim;
     static constexpr Fields reads{position};
-    /// Long lists: a thin skin, and blocks of like length.
-    static constexpr Neighbours neighbours{.skin = 0.07, .finer = 4, .window = 16};
+    /// Long lists: a skin by place, and blocks of like length.
+    static constexpr Neighbours neighbours{};
     K kernel;
 
     [[nodiscard]] double range() const { return K::radius * kernel.h; }

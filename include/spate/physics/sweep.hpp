@@ -128,8 +128,12 @@ template <class V, class I, class Tuple, class Ri, class Ui, class A, class Src>
     scalar_t<V> const* base = source.packed.data.data();
     std::int32_t const* index = lists.index.data() + std::size_t(lists.begin[block]) * std::size_t(width<V>);
     std::int32_t const* end = lists.index.data() + std::size_t(lists.begin[block + 1]) * std::size_t(width<V>);
+    // The next block's first sight of a row of bins is a miss; its lanes share lines, so that one lane asks for all.
+    constexpr std::ptrdiff_t ahead = 48 * width<V>;
+    std::int32_t const* const last = lists.index.data() + lists.index.size() - 1;
     A mine = sums; // a copy in registers: g++ would store sums to the stack with each pack
     for (; index != end; index += width<V>) {
+        __builtin_prefetch(base + std::uint32_t(*std::min(index + ahead, last)));
         const auto rj = gathered<V>(base, index, L{});
         const auto ij = pair_of<I, V>(interaction, ri, ui, rj, uj);
         constexpr auto terms = std::make_index_sequence<std::tuple_size_v<Tuple>>{};

@@ -10,6 +10,7 @@
 #include "spate/physics/model.hpp"
 #include "spate/physics/sweep.hpp"
 
+#include <atomic>
 #include <functional>
 #include <mutex>
 
@@ -118,9 +119,16 @@ public:
         return lists_[std::size_t(s * species_count + q)];
     }
 
+    template <int s>
+    Skins<dim> const& skins() const
+    {
+        return skins_[s];
+    }
+
     // ---- neighbours
     /// Wraps positions, sorts, and builds all lists from the positions of now.
-    void rebuild()
+    /// \param wide  with the whole skin everywhere
+    void rebuild(bool wide = false)
     {
         wrap();
         each_memory([&](auto s, auto q, auto& aside, auto& memory) {
@@ -137,12 +145,13 @@ public:
                     x.particles.column(build_position)[std::size_t(c)] = x.particles.column(position)[std::size_t(c)];
         });
         sorted_markers_ = true;
-        const double range = physics_.interaction.range(), reach = range * (1 + neighbours_.skin);
+        choose_skins(wide);
+        const double range = physics_.interaction.range(), beyond = neighbours_.skin - neighbours_.closed_in();
         each_species([&](auto s) {
             auto build = [&](auto... from) {
                 if constexpr (sizeof...(from) > 0)
                     Lists<dim>::build(species<s()>().particles, species<s()>().bins, grid_, width<V>,
-                                      neighbours_.window, reach, range, backend_, from...);
+                                      neighbours_.window, range, skins_[s()], beyond, backend_, from...);
             };
             constexpr bool meets_0 = M::planner.meet(s(), 0), meets_1 = species_count == 2 && M::planner.meet(s(), 1);
             if constexpr (meets_0 && meets_1) build(from<s(), 0>(), from<s(), 1>());
@@ -160,8 +169,13 @@ public:
     /// diagonal of the box of all displacements, one on a marker by no more than the largest of them.
     [[nodiscard]] bool stale(Extremes const& e, double t, double t2) const
     {
-        if (!any_pairs) return !have_lists_;
-        return !have_lists_ || !(closing(e, t, t2) <= neighbours_.closed_in() * physics_.interaction.range());
+        if (!any_pairs || !have_lists_) return !have_lists_;
+        const double range = physics_.interaction.range(), most = closing(e, t, t2);
+        double least = std::numeric_limits<double>::infinity();
+        for (auto const& skins : skins_) least = std::min(least, skins.least());
+        if (most <= least * range) return false;
+        if (!neighbours_.local || !std::isfinite(most)) return true;
+        return outrun(t, 2 * t2 * e.acceleration);
     }
     /// The most by which a pair may have closed in at positions up to x + v t + a t2 [m].
     [[nodiscard]] double closing(Extremes const& e, double t, double t2) const
@@ -341,6 +355,7 @@ public:
             b += x.particles.bytes() + x.start.bytes() + x.bins.bytes() + x.packed.data.capacity() * sizeof(T);
         });
         for (auto const& l : lists_) b += l.bytes();
+        for (auto const& skins : skins_) b += skins.bytes();
         return b;
     }
     /// Sum modulo 2^64 over all particles of a hash of (species, id, bits of the evolving fields), and over all pairs of
@@ -694,6 +709,82 @@ private:
         for (std::size_t i = first; i < last; i += std::size_t(width<V>))
             store(y + i, V(load<V>(y0 + i) + V(dt) * load<V>(rate + i)));
     }
+    /// Where velocities differ lists reach far; see Skins.
+    void choose_skins(bool wide)
+    {
+        for (auto& skins : skins_) skins.use(neighbours_.closed_in());
+        if (!neighbours_.local || !any_pairs) return;
+        each_species([&](auto s) { skins_[s()].look_around(species<s()>().bins, species<0>().bins, grid_); });
+        if constexpr (M::markers) {
+            by_marker_.assign(skins_[0].patches(), 0);
+            for (std::size_t p = 0; p < skins_[1].patches(); ++p)
+                for (auto const g : skins_[1].near(p)) by_marker_[std::size_t(g)] = 1;
+        }
+        if (wide) return;
+        auto const& v = mobile().column(velocity);
+        const auto spread = spreads([&](auto& box, std::size_t i) {
+            for (int c = 0; c < dim; ++c) box.add(c, double(v[std::size_t(c)][i]));
+        });
+        std::array<std::vector<double>, std::size_t(species_count)> speed;
+        double fastest = 0;
+        each_species([&](auto s) {
+            auto& of = speed[s()];
+            of.resize(skins_[s()].patches());
+            for (std::size_t p = 0; p < of.size(); ++p) {
+                of[p] = differ<s()>(spread, p);
+                fastest = std::max(fastest, of[p]);
+            }
+        });
+        each_species([&](auto s) { skins_[s()].use(neighbours_.closed_in(), speed[s()], fastest); });
+    }
+    /// The box of vectors in each patch of the mobile particles; add(box, i) adds those of particle i.
+    [[nodiscard]] std::vector<Spread<dim>> spreads(auto const& add) const
+    {
+        std::vector<Spread<dim>> of(skins_[0].patches());
+        constexpr std::size_t some = 512; // patches in a task
+        backend_.for_each((of.size() + some - 1) / some, [&](std::size_t task) {
+            for (std::size_t p = task * some, end = std::min(of.size(), p + some); p < end; ++p) {
+                const auto here = Skins<dim>::particles_of(species<0>().bins, p, grid_);
+                for (auto i = here.first; i < here.last; ++i) add(of[p], std::size_t(i));
+            }
+        });
+        return of;
+    }
+    /// By how much the vectors of pairs with a target in a patch may differ; markers stand still.
+    template <int s>
+    [[nodiscard]] double differ(std::vector<Spread<dim>> const& spread, std::size_t patch) const
+    {
+        Spread<dim> all;
+        for (auto const g : skins_[s].near(patch)) all |= spread[std::size_t(g)];
+        if constexpr (M::markers)
+            if (s == 1 ? !skins_[s].near(patch).empty() : by_marker_[patch] != 0)
+                for (int c = 0; c < dim; ++c) all.add(c, 0);
+        return all.diagonal();
+    }
+    /// Whether a pair of any patch may have closed in by more than its skin at positions up to x + v t and `more` [m].
+    [[nodiscard]] bool outrun(double t, double more) const
+    {
+        auto const &x = mobile().column(position), &v = mobile().column(velocity),
+                   &start = mobile().column(build_position);
+        const auto spread = spreads([&](auto& box, std::size_t i) {
+            for (int c = 0; c < dim; ++c) {
+                const auto k = std::size_t(c);
+                const double moved = double(x[k][i]) - double(start[k][i]);
+                box.add(c, moved), box.add(c, moved + t * double(v[k][i]));
+            }
+        });
+        std::atomic<bool> any = false;
+        const double range = physics_.interaction.range();
+        each_species([&](auto s) {
+            auto const& skins = skins_[s()];
+            constexpr std::size_t some = 512; // patches in a task
+            backend_.for_each((skins.patches() + some - 1) / some, [&](std::size_t task) {
+                for (std::size_t p = task * some, end = std::min(skins.patches(), p + some); p < end && !any; ++p)
+                    if (!(differ<s()>(spread, p) + more <= skins.of(p) * range)) any = true;
+            });
+        });
+        return any;
+    }
     void wrap()
     {
         if (!grid_.any_periodic()) return;
@@ -787,6 +878,8 @@ private:
     };
     typename AllMemory<std::make_integer_sequence<int, species_count * species_count>>::type aside_;
     std::array<std::vector<Array<T>>, std::size_t(species_count* species_count)> memory_; ///< of pairs, by cell
+    std::array<Skins<dim>, std::size_t(species_count)> skins_;
+    std::vector<char> by_marker_; ///< of each patch of the mobile particles: whether markers are near
     bool have_lists_ = false, sorted_markers_ = false, kick_rates_ = false;
     std::int64_t rebuilds_ = 0, evaluations_ = 0, pairs_evaluated_ = 0;
 };

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief A skin for each place: lists reach far beyond the range only where particles move against each other. A patch
+/// is a cube of bins of about one range; its skin covers by how much any pair with a target in it may close in.
+#pragma once
+
+#include "spate/cells/binning.hpp"
+
+#include <span>
+
+namespace spate {
+
+/// By how much vectors differ: the box of them, as largest (v, -v).
+template <int Dim>
+struct alignas(32) Spread {
+    static constexpr float nothing = std::numeric_limits<float>::lowest();
+    std::array<float, 8> most{nothing, nothing, nothing, nothing, nothing, nothing, nothing, nothing};
+
+    void add(int c, double v)
+    {
+        auto &hi = most[std::size_t(c)], &lo = most[std::size_t(c) + 4];
+        hi = std::max(hi, float(v)), lo = std::max(lo, -float(v));
+    }
+    Spread& operator|=(Spread const& b)
+    {
+        for (std::size_t k = 0; k < 8; ++k) most[k] = most[k] < b.most[k] ? b.most[k] : most[k];
+        return *this;
+    }
+    /// The largest difference of two of them, or a little more: floats are rounded.
+    [[nodiscard]] double diagonal() const
+    {
+        if (most[0] == nothing) return 0;
+        double d2 = 0;
+        for (std::size_t c = 0; c < std::size_t(Dim); ++c) {
+            const double side = double(most[c]) + double(most[c + 4]);
+            d2 += side * side;
+        }
+        return std::sqrt(d2) * (1 + 1e-6);
+    }
+};
+
+/// The skins of the lists of one target, by patch: numbered cell by cell, like bins.
+template <int Dim>
+class Skins {
+public:
+    /// The same skin everywhere.
+    void use(double skin)
+    {
+        skin_.clear();
+        least_ = uniform_ = skin;
+    }
+    /// Which patches of the mobile particles are near each patch of the target.
+    void look_around(Binning<Dim> const& at, Binning<Dim> const& mobile, Grid<Dim> const& grid)
+    {
+        const int M = grid.cell();
+        const std::size_t per_cell = patches_of_cell(grid);
+        begin_.assign(1, 0);
+        near_.clear();
+        for (std::size_t k = 0; k < at.cells(); ++k) {
+            const Index<Dim> cell = at.cell(k);
+            for (std::size_t p = 0; p < per_cell; ++p) {
+                Index<Dim> patch;
+                auto rest = std::int32_t(p);
+                for (int c = 0; c < Dim; ++c, rest /= M) patch[std::size_t(c)] = cell[std::size_t(c)] * M + rest % M;
+                if (!particles_of(at, k * per_cell + p, grid).empty()) near_patches(patch, mobile, grid);
+                begin_.push_back(std::int32_t(near_.size()));
+            }
+        }
+    }
+    /// What is near a patch, as numbers of patches of the mobile particles.
+    [[nodiscard]] std::span<const std::int32_t> near(std::size_t patch) const
+    {
+        return {near_.data() + begin_[patch], near_.data() + begin_[patch + 1]};
+    }
+    [[nodiscard]] std::size_t patches() const { return begin_.size() - 1; }
+    /// A skin in proportion to how far apart velocities are, the largest where that is `fastest`. Where all move alike
+    /// a little is left for what they will do. \param speed  of each patch [m/s]
+    void use(double skin, std::vector<double> const& speed, double fastest)
+    {
+        constexpr double at_rest = 0.1;
+        uniform_ = least_ = skin;
+        skin_.resize(speed.size());
+        for (std::size_t p = 0; p < speed.size(); ++p) {
+            skin_[p] = fastest > 0 ? skin * (at_rest + (1 - at_rest) * (speed[p] / fastest)) : skin;
+            least_ = std::min(least_, skin_[p]);
+        }
+    }
+    /// Fraction of the range by which pairs of a patch may close in.
+    [[nodiscard]] double of(std::size_t patch) const { return skin_.empty() ? uniform_ : skin_[patch]; }
+    [[nodiscard]] double least() const { return least_; }
+    [[nodiscard]] bool uniform() const { return skin_.empty(); }
+    [[nodiscard]] std::size_t bytes() const
+    {
+        return 4 * (begin_.capacity() + near_.capacity()) + 8 * skin_.capacity();
+    }
+
+    static std::size_t patches_of_cell(Grid<Dim> const& grid)
+    {
+        return std::size_t(grid.bins_of_cell() / grid.finer());
+    }
+    /// The particles of a patch: one after the other, since bins run along x first.
+    struct Stretch {
+        std::int32_t first, last;
+        [[nodiscard]] bool empty() const { return first == last; }
+    };
+    static Stretch particles_of(Binning<Dim> const& at, std::size_t patch, Grid<Dim> const& grid)
+    {
+        const auto finer = std::size_t(grid.finer());
+        return {at.first(patch * finer), at.first((patch + 1) * finer)};
+    }
+
+private:
+    void near_patches(Index<Dim> const& patch, Binning<Dim> const& mobile, Grid<Dim> const& grid)
+    {
+        const int M = grid.cell();
+        const std::size_t per_cell = patches_of_cell(grid);
+        constexpr int around = Dim == 1 ? 3 : Dim == 2 ? 9 : 27;
+        Index<Dim> last{};
+        std::int32_t found = -2;
+        for (int q = 0; q < around; ++q) {
+            Index<Dim> cell;
+            std::size_t local = 0, stride = 1;
+            int rest = q;
+            for (int c = 0; c < Dim; ++c, rest /= 3) {
+                std::int32_t at = patch[std::size_t(c)] + rest % 3 - 1;
+                if (grid.periodic(c)) {
+                    const std::int32_t n = grid.bins(c) / grid.per_range(c);
+                    at = (at % n + n) % n;
+                }
+                cell[std::size_t(c)] = grid.cell_of(c, at * grid.per_range(c));
+                local += stride * std::size_t(at - cell[std::size_t(c)] * M);
+                stride *= std::size_t(M);
+            }
+            if (found == -2 || cell != last) found = mobile.find(cell), last = cell;
+            if (found < 0) continue;
+            const std::size_t number = std::size_t(found) * per_cell + local;
+            if (!particles_of(mobile, number, grid).empty()) near_.push_back(std::int32_t(number));
+        }
+    }
+
+    std::vector<std::int32_t> begin_{0}, near_;
+    std::vector<double> skin_;
+    double uniform_ = 0, least_ = 0;
+};
+
+} // namespace spate
