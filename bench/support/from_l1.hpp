@@ -34,7 +34,7 @@ public:
         fill(pack_, neighbours * width<V>, width<V>);
     }
     /// On packs that lie side by side, one a field: no list, no transposition.
-    [[gnu::noinline]] void on_packs()
+    [[gnu::noinline, gnu::flatten]] void on_packs()
     {
         sweep([&](auto const& interaction, auto const& all, auto const& ri, auto const& ui, auto& sums, std::size_t)
                   __attribute__((always_inline)) {
@@ -49,7 +49,7 @@ public:
                   });
     }
     /// On records that lists point at: the engine's own loop.
-    [[gnu::noinline]] void on_records()
+    [[gnu::noinline, gnu::flatten]] void on_records()
     {
         const Folded source{theirs_, {list_}, record_};
         sweep([&](auto const& interaction, auto const& all, auto const& ri, auto const& ui, auto& sums, std::size_t b)

@@ -111,10 +111,10 @@ TEST(Skins, AreThinWhereNothingMoves)
 TEST(Skins, AreWholeEverywhereAtRest)
 {
     const Box<2> box{{}, {{1, 1}}};
-    Simulation sim(water(0.4), RungeKutta2{}, Periodic(box), Serial{}, Double{}, NoWatch{});
+    Simulation sim(water(0.4), RungeKutta2{}, Periodic(box));
     sim.fill(box, dx);
     sim.run({.steps = 1, .dt = 1e-9});
-    EXPECT_DOUBLE_EQ(sim.system().template skins<0>().least(), Neighbours{}.skin);
+    EXPECT_DOUBLE_EQ(sim.system().template skins<0>().least(), sim.system().neighbours().skin);
 }
 
 } // namespace

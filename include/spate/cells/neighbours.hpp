@@ -10,11 +10,11 @@ namespace spate {
 
 /// How neighbour lists are kept; part of the scene, since bins fix the order of sums and with it the bits.
 struct Neighbours {
-    double skin = 0.12; ///< reach of a list beyond the range, as a fraction of it, at most [-]
+    double skin = 0.07; ///< reach of a list beyond the range, as a fraction of it, at most [-]
     double bins = 0;    ///< bin edge over the range [-], 0: 1 + skin; at least 1 + skin
     double trigger = 0; ///< lists are rebuilt when a pair may have closed in by this fraction of the range; 0: skin
     int finer = 4;      ///< bins in a range along x [-]
-    bool local = true;  ///< skin and trigger are thinner where particles move alike; see Skins
+    bool local = false; ///< skin and trigger are thinner where particles move alike; see Skins
     int window = 16;    ///< targets within which those of like list length share a block; changes no bit
 
     void check() const

@@ -28,7 +28,7 @@ struct Smoothing {
     static constexpr int dim = K::dim;
     static constexpr Fields reads{position};
     /// Long lists: a skin by place, and blocks of like length.
-    static constexpr Neighbours neighbours{};
+    static constexpr Neighbours neighbours{.skin = 0.12, .local = true};
     K kernel;
 
     [[nodiscard]] double range() const { return K::radius * kernel.h; }

@@ -178,12 +178,13 @@ template <Mask terms, class V, class I, class Ri, class Ui, class A, class... T,
 }
 } // namespace detail
 
-/// Runs the picked terms on all targets of one cell: the unit of work.
+/// Runs the picked terms on all targets of one cell: the unit of work. Flattened: terms are inlined however large the
+/// program; a call in the loop would send its sums through memory.
 /// \tparam Sums     the fields that the terms add to
 /// \tparam Target   the fields that they read of the target
 template <class V, Mask terms, class Sums, class Target, class I, class Tuple, class P, class... Src>
-void sweep_cell(I const& of_scene, Tuple const& terms_of_scene, P& particles, Binning<P::dim> const& at,
-                std::size_t cell, Src const&... source)
+[[gnu::flatten]] void sweep_cell(I const& of_scene, Tuple const& terms_of_scene, P& particles,
+                                 Binning<P::dim> const& at, std::size_t cell, Src const&... source)
 {
     const I interaction = of_scene; // copies in this frame: parameters become invariants in registers
     const Tuple all = terms_of_scene;

@@ -541,7 +541,7 @@ private:
     template <int s, Mask terms, Mask cleared>
     void pass()
     {
-        stretches<s>([&](std::size_t first, std::size_t last) {
+        stretches<s>([&](std::size_t first, std::size_t last) __attribute__((flatten)) {
             auto& p = species<s>().particles;
             for (std::size_t i = first; i < last; i += std::size_t(width<V>)) {
                 for_each(M::template fields<cleared>(), [&](auto f) {

@@ -23,7 +23,7 @@ struct Round {
     static constexpr int dim = Dim;
     static constexpr Fields reads{position, radius};
     /// Short lists: a thick skin, as they move every way, and targets in their own order.
-    static constexpr Neighbours neighbours{.skin = 0.3, .finer = 1, .local = false, .window = 1};
+    static constexpr Neighbours neighbours{.skin = 0.3, .finer = 1, .window = 1};
     double largest; ///< largest radius of the scene [m]
 
     [[nodiscard]] double range() const { return 2 * largest; }
