@@ -22,7 +22,7 @@ void values(benchmark::State& state, auto const& f)
     using T = scalar_t<V>;
     constexpr std::size_t n = 1024, W = std::size_t(width<V>);
     Array<T> q(n), y(n);
-    for (std::size_t k = 0; k < n; ++k) q[k] = T(2.2 * double(k) / n); // support 2, and a little beyond
+    for (std::size_t k = 0; k < n; ++k) q[k] = T(2.2 * double(k) / n); // a support of 2, and a little beyond
     least(state, n, 100, [&] {
         for (std::size_t k = 0; k < n; k += W) {
             V x = load<V>(q.data() + k);
@@ -172,7 +172,10 @@ void integrator()
 
 [[maybe_unused]] const bool registered = [] {
     kernel<CubicSpline<3>>("CubicSpline");
+    kernel<QuinticSpline<3>>("QuinticSpline");
     kernel<WendlandC2<3>>("WendlandC2");
+    kernel<WendlandC4<3>>("WendlandC4");
+    kernel<WendlandC6<3>>("WendlandC6");
     all_pair_terms();
     stages();
     integrator<ForwardEuler>();
