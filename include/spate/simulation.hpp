@@ -102,6 +102,7 @@ public:
         double particles = 1;
         for (auto k : n) particles *= k;
         require(particles <= most, "spacing", spacing, "one that gives at most 2147483647 particles");
+        complete(spacing);
         set_mass(spacing);
         auto& p = system_.mobile();
         const std::size_t first = p.size();
@@ -144,6 +145,7 @@ public:
     /// Tells the scene that particles were changed by hand.
     void prepare()
     {
+        if (physics().open()) physics().check(); // says what is missing: nobody named a spacing
         check_particles();
         if (step_ == 0) check_places();
         system_.use(make_grid());
@@ -273,13 +275,25 @@ private:
     static P const& checked(P const& physics, B const& boundary, Workers const& backend, Neighbours const& n,
                             W const& watch)
     {
-        physics.check();
+        if (!physics.open()) check_physics(physics, boundary, n);
         backend.check();
         n.check();
         watch.check();
-        boundary.check(physics.interaction.range() * (1 + n.skin));
         require(backend.cell >= 0 && backend.cell <= 32, "cell", backend.cell, "0 (by dimension), or 1 to 32 ranges");
         return physics;
+    }
+    static void check_physics(P const& physics, B const& boundary, Neighbours const& n)
+    {
+        physics.check();
+        boundary.check(physics.interaction.range() * (1 + n.skin));
+    }
+    /// What the physics leaves to the spacing of the particles.
+    void complete(double spacing)
+    {
+        if (!physics().open()) return;
+        const P whole = physics().at(spacing);
+        check_physics(whole, system_.boundary(), system_.neighbours());
+        system_.complete(whole);
     }
     /// Mass from the spacing, where mass is uniform and follows from a reference density.
     void set_mass(double spacing)
@@ -312,6 +326,7 @@ private:
     void place_markers()
     {
         if constexpr (Engine::species_count == 2) {
+            complete(system_.boundary().spacing());
             auto& p = system_.template species<1>().particles;
             std::vector<Point> x;
             system_.boundary().place(physics().interaction.range(), [&](Point const& at) { x.push_back(at); });

@@ -16,7 +16,8 @@ template <int Dim>
 struct QuinticSpline {
     static constexpr int dim = Dim;
     static constexpr double radius = 3;
-    double h; ///< smoothing length [m]; 1 spacing
+    static constexpr double smoothing = 1; ///< h over the spacing, unless h is given [-]
+    double h = from_spacing;               ///< smoothing length [m]
 
     [[nodiscard]] double sigma() const
     {

@@ -16,7 +16,8 @@ template <int Dim>
 struct WendlandC6 {
     static constexpr int dim = Dim;
     static constexpr double radius = 2;
-    double h; ///< smoothing length [m]; 2 spacings
+    static constexpr double smoothing = 2; ///< h over the spacing, unless h is given [-]
+    double h = from_spacing;               ///< smoothing length [m]
 
     [[nodiscard]] double sigma() const
     {

@@ -69,6 +69,29 @@ struct Physics {
     Terms terms;
     Record<dim, double, std::remove_cv_t<U>> uniforms{}; ///< their values
 
+    /// Whether a part leaves something to the spacing of the particles: it says `open()` and has `complete(spacing)`.
+    [[nodiscard]] bool open() const
+    {
+        bool any = false;
+        auto ask = [&](auto const& part) {
+            if constexpr (requires { part.open(); }) any = any || part.open();
+        };
+        ask(interaction);
+        detail::each_in(terms, ask);
+        return any;
+    }
+    /// Itself with what was left to the spacing [m]; what was given stays.
+    [[nodiscard]] Physics at(double spacing) const
+    {
+        Physics p = *this;
+        auto complete = [&](auto& part) {
+            if constexpr (requires { part.open(); })
+                if (part.open()) part.complete(spacing);
+        };
+        complete(p.interaction);
+        std::apply([&](auto&... t) { (complete(t), ...); }, p.terms);
+        return p;
+    }
     /// Throws BadInput for the first parameter out of range.
     void check() const
     {

@@ -8,6 +8,8 @@
 #include "spate/core/fields.hpp"
 #include "spate/kernel/kernel.hpp"
 
+#include <cmath>
+
 namespace spate {
 
 /// What a term sees of a pair of smoothed particles.
@@ -35,6 +37,16 @@ struct Smoothing {
     /// Length of the time-step criteria [m].
     [[nodiscard]] double length() const { return kernel.h; }
     void check() const { require_positive("kernel.h", kernel.h, "m"); }
+    /// Whether h is left to the spacing.
+    [[nodiscard]] bool open() const
+    {
+        if constexpr (requires { K::smoothing; }) return std::isnan(kernel.h);
+        else return false;
+    }
+    void complete(double spacing)
+    {
+        if constexpr (requires { K::smoothing; }) kernel.h = K::smoothing * spacing;
+    }
 
     template <class V>
     [[gnu::always_inline]] auto pair(auto const& i, auto const& j) const

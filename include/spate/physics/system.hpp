@@ -104,6 +104,12 @@ public:
         return n;
     }
     P const& physics() const { return physics_; }
+    /// What the physics left open is known now: before the first evaluation.
+    void complete(P physics)
+    {
+        physics_ = std::move(physics);
+        terms_ = M::terms_of(physics_, boundary_);
+    }
     /// Parameters of the terms may change between steps; the same types, so no plan changes.
     auto& terms() { return terms_; }
     auto const& terms() const { return terms_; }
