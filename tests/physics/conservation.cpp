@@ -166,6 +166,16 @@ TYPED_TEST(Conservation, OfMomentumByViscosity)
     EXPECT_LE(angular_momentum<dim>(a), rounding(a)) << "a central force";
     this->note("artificial", momentum<dim>(a));
 
+    auto central = random_state<dim>(Open{}, MonaghanCleary<dim>{.mu = 1});
+    auto const& b = central.particles();
+    EXPECT_LE(momentum<dim>(b), rounding(b));
+    EXPECT_LE(angular_momentum<dim>(b), rounding(b)) << "a central force";
+    this->note("monaghan_cleary", angular_momentum<dim>(b));
+    double work_of_central = 0;
+    for (std::size_t i = 0; i < b.size(); ++i)
+        work_of_central += b.at(mass, i) * b.at(velocity, i).dot(b.at(acceleration, i));
+    EXPECT_LT(work_of_central, 0);
+
     auto laminar = random_state<dim>(Open{}, LaminarViscosity{.mu = 1});
     auto const& l = laminar.particles();
     EXPECT_LE(momentum<dim>(l), rounding(l));
@@ -179,6 +189,29 @@ TYPED_TEST(Conservation, OfMomentumByViscosity)
         work_of_laminar += l.at(mass, i) * l.at(velocity, i).dot(l.at(acceleration, i));
     EXPECT_LT(work_of_artificial, 0);
     EXPECT_LT(work_of_laminar, 0);
+}
+
+TYPED_TEST(Conservation, OfMomentaByTensileCorrection)
+{
+    constexpr int dim = TestFixture::dim;
+    auto sim = random_state<dim>(Open{}, tait, TensileCorrection{});
+    auto const& p = sim.particles();
+    EXPECT_LE(momentum<dim>(p), rounding(p));
+    EXPECT_LE(angular_momentum<dim>(p), rounding(p)) << "a central force";
+    this->note("momentum", momentum<dim>(p));
+}
+
+TYPED_TEST(Conservation, OfMomentumByViscosityOfEachParticle)
+{
+    constexpr int dim = TestFixture::dim;
+    auto sim = random_state<dim>(Open{}, VariableViscosity{.largest = 2});
+    auto& p = sim.particles();
+    oracle::Dice dice(3);
+    for (std::size_t i = 0; i < p.size(); ++i) p.put(viscosity, i, dice.real(0, 2));
+    sim.system().rates(sim.system().all);
+    EXPECT_LE(momentum<dim>(p), rounding(p));
+    EXPECT_GT(angular_momentum<dim>(p), 1e-6) << "as of laminar viscosity";
+    this->note("momentum", momentum<dim>(p));
 }
 
 /// The diffusion of a pair is antisymmetric in V_i d rho_i: that sum is what it keeps.

@@ -69,7 +69,8 @@ struct Physics {
     Terms terms;
     Record<dim, double, std::remove_cv_t<U>> uniforms{}; ///< their values
 
-    /// Whether a part leaves something to the spacing of the particles: it says `open()` and has `complete(spacing)`.
+    /// Whether a part leaves something to the spacing of the particles: it says `open()`, and takes it by
+    /// `complete(spacing)`, a term by `complete(spacing, interaction)`.
     [[nodiscard]] bool open() const
     {
         bool any = false;
@@ -84,12 +85,12 @@ struct Physics {
     [[nodiscard]] Physics at(double spacing) const
     {
         Physics p = *this;
-        auto complete = [&](auto& part) {
+        auto complete = [](auto& part, auto const&... known) {
             if constexpr (requires { part.open(); })
-                if (part.open()) part.complete(spacing);
+                if (part.open()) part.complete(known...);
         };
-        complete(p.interaction);
-        std::apply([&](auto&... t) { (complete(t), ...); }, p.terms);
+        complete(p.interaction, spacing);
+        std::apply([&](auto&... t) { (complete(t, spacing, p.interaction), ...); }, p.terms);
         return p;
     }
     /// Throws BadInput for the first parameter out of range.

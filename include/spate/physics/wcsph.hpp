@@ -12,8 +12,13 @@
 #include "spate/physics/sph/density_diffusion.hpp"
 #include "spate/physics/sph/laminar_viscosity.hpp"
 #include "spate/physics/sph/linear_eos.hpp"
+#include "spate/physics/sph/monaghan_cleary.hpp"
 #include "spate/physics/sph/pressure_force.hpp"
+#include "spate/physics/sph/species_viscosity.hpp"
+#include "spate/physics/sph/summation_density.hpp"
 #include "spate/physics/sph/tait.hpp"
+#include "spate/physics/sph/tensile_correction.hpp"
+#include "spate/physics/sph/variable_viscosity.hpp"
 
 namespace spate {
 
@@ -71,6 +76,10 @@ auto wcsph(K kernel, T... term)
                   "spate: wcsph takes a kernel first: dim, h, radius, sigma(), f(q), g(q); see kernel/kernel.hpp");
     static_assert((int(EquationOfState<T>) + ... + 0) == 1,
                   "spate: wcsph needs exactly one equation of state; add Tait{.rho0, .c0} or LinearEos{.rho0, .c0}");
+    static_assert(!(decltype(adds<T>())::template contains<Density> || ...) ||
+                      !(decltype(adds<T>())::template contains<DensityRate> || ...),
+                  "spate: density is summed or follows continuity; leave out SummationDensity or the terms that add to "
+                  "density_rate");
     const auto m = detail::constants_of<K::dim>(term...);
     return physics(Smoothing<K>{kernel}, Uniform{mass, 0.0}, detail::completed(term, m)...);
 }
