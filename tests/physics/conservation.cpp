@@ -127,6 +127,7 @@ TYPED_TEST(Conservation, OfMomentaAndEnergyWithOneSigma)
     };
     check(random_state<dim>(Open{}, tait, Continuity<1>{}, PressureForce<1>{}));
     check(random_state<dim>(Open{}, tait, Continuity<2>{}, PressureForce<2>{}));
+    check(random_state<dim>(Open{}, tait, SigmaContinuity{1.5, rho0}, SigmaPressure{1.5, rho0}));
 }
 
 TYPED_TEST(Conservation, OfMomentumButNotOfEnergyWithMixedSigma)
@@ -141,6 +142,8 @@ TYPED_TEST(Conservation, OfMomentumButNotOfEnergyWithMixedSigma)
     };
     check(random_state<dim>(Open{}, tait, Continuity<1>{}, PressureForce<2>{}));
     check(random_state<dim>(Open{}, tait, Continuity<2>{}, PressureForce<1>{}));
+    check(random_state<dim>(Open{}, tait, Continuity<2>{}, SigmaPressure{1.5, rho0}));
+    check(random_state<dim>(Open{}, tait, SigmaContinuity{1.5, rho0}, PressureForce<1>{}));
 }
 
 TYPED_TEST(Conservation, AcrossPeriodicFaces)
@@ -199,6 +202,24 @@ TYPED_TEST(Conservation, OfMomentaByTensileCorrection)
     EXPECT_LE(momentum<dim>(p), rounding(p));
     EXPECT_LE(angular_momentum<dim>(p), rounding(p)) << "a central force";
     this->note("momentum", momentum<dim>(p));
+}
+
+TYPED_TEST(Conservation, OfMomentumByXsph) // of the velocity that positions follow
+{
+    constexpr int dim = TestFixture::dim;
+    auto sim = random_state<dim>(Open{}, tait, Xsph{});
+    auto const& p = sim.particles();
+    for (int c = 0; c < dim; ++c) {
+        ExactSum own, moving;
+        double size = 0;
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            own.add(p.at(mass, i) * p.at(velocity, i)[c]);
+            moving.add(p.at(mass, i) * p.at(transport_velocity, i)[c]);
+            size += p.at(mass, i) * std::abs(p.at(transport_velocity, i)[c] - p.at(velocity, i)[c]);
+        }
+        EXPECT_GT(size, 0);
+        EXPECT_LE(std::abs(own.value() - moving.value()) / size, rounding(p));
+    }
 }
 
 TYPED_TEST(Conservation, OfMomentumByViscosityOfEachParticle)

@@ -28,7 +28,7 @@ auto record(State<Dim> const& s)
     return r;
 }
 template <class V, int Dim>
-using Sums = Record<Dim, V, Fields<Acceleration, DensityRate, Density>>;
+using Sums = Record<Dim, V, Fields<Acceleration, DensityRate, Density, TransportVelocity, Crowding>>;
 
 /// The geometry of a pair as an interaction gives it.
 template <class V, class I>
@@ -171,6 +171,22 @@ TEST(TensileCorrection, OfTwoParticlesByHand) // W(1)/W(1/2), by f: (1/2)^4 3 / 
     expect_vector(of_pair(plane, term, i, pressed)[acceleration], 0.6 * push, 0.8 * push);
     const double both = -2 * 0.2 * (100.0 / (1100 * 1100) + 300.0 / (900 * 900)) * f * G;
     expect_vector(of_pair(plane, term, torn, j)[acceleration], 0.6 * both, 0.8 * both);
+}
+
+TEST(Xsph, OfTwoParticlesByHand) // mean density 1000, v_j - v_i = -(2, 1)
+{
+    const double k = 0.5 * 2 * 7 / (4 * pi) * 3 / 16 / 1000;
+    expect_vector(of_pair(plane, Xsph{.eps = 0.5}, i, j)[transport_velocity], -2 * k, -k);
+}
+
+TEST(Shifting, OfTwoParticlesByHand) // W(1)/W(1/2) as of the tensile correction
+{
+    CrowdingSum term{.repulsion = 0.2};
+    EXPECT_TRUE(term.open());
+    term.complete(0.5, plane);
+    const double s = (1 + 0.2 * std::pow(3.0 / 16 / (81.0 / 128), 4)) * 2 / 2000 * G;
+    expect_vector(of_pair(plane, term, i, j)[crowding], 0.6 * s, 0.8 * s);
+    EXPECT_LT(s, 0) << "towards the other; the shift is against it";
 }
 
 TEST(SummationDensity, OfTwoParticlesByHand)
@@ -428,7 +444,11 @@ void expect_nothing(auto const& interaction, auto const& term)
         const Sums<V, Dim> after = add_pair<V>(interaction, term, target, other, before);
         EXPECT_TRUE(same_bits(before[density_rate], after[density_rate])) << trial;
         EXPECT_TRUE(same_bits(before[density], after[density])) << trial;
-        for (int c = 0; c < Dim; ++c) EXPECT_TRUE(same_bits(before[acceleration][c], after[acceleration][c])) << trial;
+        for (int c = 0; c < Dim; ++c) {
+            EXPECT_TRUE(same_bits(before[acceleration][c], after[acceleration][c])) << trial;
+            EXPECT_TRUE(same_bits(before[transport_velocity][c], after[transport_velocity][c])) << trial;
+            EXPECT_TRUE(same_bits(before[crowding][c], after[crowding][c])) << trial;
+        }
     }
 }
 template <class V, class K>
@@ -450,6 +470,10 @@ void expect_nothing_of_all_terms()
     TensileCorrection tensile;
     tensile.complete(0.01, smoothing);
     expect_nothing<V, Dim>(smoothing, tensile);
+    expect_nothing<V, Dim>(smoothing, Xsph{});
+    CrowdingSum crowd{.repulsion = 0.2};
+    crowd.complete(0.01, smoothing);
+    expect_nothing<V, Dim>(smoothing, crowd);
     for (double c0 : {1.0, 30.0, 1500.0}) { // slow sound makes rho_H of the sentinel large
         Vec<Dim, double> g{};
         g[Dim - 1] = -9.81;
@@ -491,8 +515,11 @@ TEST(Terms, GiveInPacksTheBitsOfScalars)
             const auto scalar = of_pair(plane, term, a, b);
             EXPECT_TRUE(same_bits(packed[density_rate], Pack<double>(scalar[density_rate])));
             EXPECT_TRUE(same_bits(packed[density], Pack<double>(scalar[density])));
-            for (int c = 0; c < 2; ++c)
+            for (int c = 0; c < 2; ++c) {
                 EXPECT_TRUE(same_bits(packed[acceleration][c], Pack<double>(scalar[acceleration][c])));
+                EXPECT_TRUE(same_bits(packed[transport_velocity][c], Pack<double>(scalar[transport_velocity][c])));
+                EXPECT_TRUE(same_bits(packed[crowding][c], Pack<double>(scalar[crowding][c])));
+            }
         }
     };
     check(Continuity<1>{});
@@ -503,6 +530,8 @@ TEST(Terms, GiveInPacksTheBitsOfScalars)
     check(MonaghanCleary<2>{.mu = 0.3});
     check(VariableViscosity{.largest = 2});
     check(SummationDensity{});
+    check(Xsph{});
+    check(CrowdingSum{.repulsion = 0.2, .w_spacing = 0.5});
     check(TensileCorrection{.w_spacing = 0.5});
     check(ArtificialViscosity{.alpha = 0.1, .c0 = 20});
     check(MolteniColagrossi{.delta = 0.1, .c0 = 20});

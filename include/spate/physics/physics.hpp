@@ -5,6 +5,7 @@
 
 #include "spate/core/particles.hpp"
 #include "spate/core/term.hpp"
+#include "spate/physics/transport.hpp"
 
 #include <tuple>
 
@@ -38,13 +39,23 @@ constexpr auto uniform_field(T const*)
     return Fields<>{};
 }
 
-/// All but the Uniform entries.
-auto only_terms(auto const&... t)
+/// All but the Uniform entries; what says `terms(interaction)` stands for those terms.
+template <class I>
+auto only_terms(I const& interaction, auto const&... t)
 {
-    return std::tuple_cat([](auto const& x) {
+    return std::tuple_cat([&](auto const& x) {
         if constexpr (is_uniform<std::remove_cvref_t<decltype(x)>>) return std::tuple<>{};
+        else if constexpr (requires { x.terms(interaction); }) return x.terms(interaction);
         else return std::tuple{x};
     }(t)...);
+}
+/// With the particles' own velocity, where a term corrects the velocity that positions follow.
+template <class... T>
+auto with_own_velocity(std::tuple<T...> terms)
+{
+    if constexpr ((decltype(adds<T>())::template contains<TransportVelocity> || ... || false))
+        return std::tuple_cat(terms, std::tuple{OwnVelocity{}});
+    else return terms;
 }
 template <class... T>
 void each_in(std::tuple<T...> const& t, auto&& f)
@@ -115,7 +126,7 @@ auto physics(I interaction, A... a)
         };
         (set(a), ...);
         return p;
-    }(detail::only_terms(a...));
+    }(detail::with_own_velocity(detail::only_terms(interaction, a...)));
 }
 
 } // namespace spate

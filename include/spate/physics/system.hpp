@@ -491,6 +491,8 @@ private:
                 if (step % term.every != 0) return;
             if constexpr (plan.sweeps() > 0) current();
             run<plan>();
+            constexpr auto& facts = M::planner.term[std::size_t(k)];
+            if constexpr (((facts.writes | facts.adds) & M::mask(M::template evolving<0>())) != 0) kick_rates_ = false;
         }
     }
     template <auto const& plan>
