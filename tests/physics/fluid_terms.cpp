@@ -180,7 +180,8 @@ auto noisy(double noise, double jitter, T... term)
 /// Largest difference of accelerations and of density rates, each over the largest.
 double difference(auto const& a, auto const& b)
 {
-    auto const &p = a.particles(), &q = b.particles();
+    auto const& p = a.particles();
+    auto const& q = b.particles();
     double da = 0, sa = 0, dr = 0, sr = 0;
     for (std::size_t i = 0; i < p.size(); ++i) {
         da = std::max(da, std::sqrt((p.at(acceleration, i) - q.at(acceleration, i)).squaredNorm()));

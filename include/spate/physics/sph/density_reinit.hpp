@@ -22,11 +22,13 @@ inline constexpr struct ReinitMass : ScalarField        { static constexpr std::
 inline constexpr struct ReinitVolumeFirst : VectorField { static constexpr std::string_view name = "reinit_volume_first"; static constexpr bool derived = true; } reinit_volume_first{};
 inline constexpr struct ReinitMassFirst : VectorField   { static constexpr std::string_view name = "reinit_mass_first", unit = "kg/m^3"; static constexpr bool derived = true; } reinit_mass_first{};
 // clang-format on
+namespace detail {
+inline constexpr std::string_view reinit_rows[] = {"reinit_volume_second_0", "reinit_volume_second_1",
+                                                   "reinit_volume_second_2"};
+} // namespace detail
 template <int k>
 struct ReinitVolumeSecond : VectorField {
-    static constexpr std::string_view names[] = {"reinit_volume_second_0", "reinit_volume_second_1",
-                                                 "reinit_volume_second_2"};
-    static constexpr std::string_view name = names[k];
+    static constexpr std::string_view name = detail::reinit_rows[k];
     static constexpr bool derived = true;
 };
 

@@ -18,10 +18,12 @@ namespace spate {
 inline constexpr struct Crowding : VectorField     { static constexpr std::string_view name = "crowding", unit = "1/m"; static constexpr bool derived = true; } crowding{};
 inline constexpr struct SurfaceSlope : VectorField { static constexpr std::string_view name = "surface_slope", unit = "1/m"; static constexpr bool derived = true; } surface_slope{};
 // clang-format on
+namespace detail {
+inline constexpr std::string_view surface_rows[] = {"surface_moment_0", "surface_moment_1", "surface_moment_2"};
+} // namespace detail
 template <int k>
 struct SurfaceMoment : VectorField { // row k of sum V grad W (x) x_ji: near 1 inside
-    static constexpr std::string_view names[] = {"surface_moment_0", "surface_moment_1", "surface_moment_2"};
-    static constexpr std::string_view name = names[k];
+    static constexpr std::string_view name = detail::surface_rows[k];
     static constexpr bool derived = true;
 };
 
