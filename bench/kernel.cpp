@@ -86,7 +86,14 @@ void all_pair_terms()
     pair_terms("term/SummationDensity", water(1.2, SummationDensity{}), m);
     pair_terms("term/MonaghanCleary", water(1.2, MonaghanCleary<3>{.mu = 1e-3}), m);
     pair_terms("term/VariableViscosity", water(1.2, VariableViscosity{.largest = 1e-3}), m);
-    pair_terms("term/TensileCorrection", water(1.2, TensileCorrection{.w_spacing = 1e5}), m);
+    pair_terms("term/TensileCorrection", water(1.2, TensileCorrection{}).at(dx), m);
+    pair_terms("term/Xsph", water(1.2, Xsph{}), m);
+    pair_terms("term/SigmaContinuity", water(1.2, SigmaContinuity{1.5}), m);
+    pair_terms("term/SigmaPressure", water(1.2, SigmaPressure{1.5}), m);
+    pair_terms("term/DensityReinit by Shepard", water(1.2, DensityReinit<Shepard>{}), m);
+    pair_terms("term/DensityReinit by Mls", water(1.2, DensityReinit<Mls>{}), m);
+    pair_terms("term/Shifting", water(1.2, Shifting{.mach = 0.1}).at(dx), m);
+    pair_terms("term/SurfaceShifting", water(1.2, SurfaceShifting{.mach = 0.1}).at(dx), m);
     pair_terms("term/DensityDiffusion", water(1.2, diffusion, Gravity<3>{{0, 0, -g}}), m);
     pair_terms("term/LinearSpring", dem<2>({.mass = 0.1, .radius = 0.01}, LinearSpring{.k = 1e5}), 0.1);
     pair_terms("term/fused laminar", water(1.2, Continuity<2>{}, PressureForce<2>{}, laminar), m);
