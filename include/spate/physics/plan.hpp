@@ -197,9 +197,8 @@ private:
         Mask done = 0, left = 0;
         pending[std::size_t(s)] &= ~terms;
         for (int t = 0; t < Terms; ++t) {
-            const Mask made = term[std::size_t(t)].writes | term[std::size_t(t)].adds;
-            if ((terms & bit(t)) != 0) done |= made;
-            if ((pending[std::size_t(s)] & bit(t)) != 0) left |= made;
+            if ((terms & bit(t)) != 0) done |= term[std::size_t(t)].writes | term[std::size_t(t)].adds;
+            if ((pending[std::size_t(s)] & bit(t)) != 0) left |= makes(t, s);
         }
         there[std::size_t(s)] |= done & ~left;
         fresh[std::size_t(s)] &= ~done;
