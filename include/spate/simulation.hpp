@@ -145,7 +145,9 @@ public:
     /// Tells the scene that particles were changed by hand.
     void prepare()
     {
-        if (physics().open()) physics().check(); // says what is missing: nobody named a spacing
+        if (physics().open())
+            throw BadInput("spacing", "not known",
+                           "given by a fill, or kernel.h and what terms want of it by hand [m]");
         check_particles();
         if (step_ == 0) check_places();
         system_.use(make_grid());

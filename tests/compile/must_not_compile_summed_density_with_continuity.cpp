@@ -6,5 +6,6 @@ using namespace spate;
 
 void scene()
 {
-    (void)wcsph(CubicSpline<3>{}, Tait{.rho0 = 1000, .c0 = 20}, SummationDensity{}, Continuity<2>{}, PressureForce<2>{});
+    (void)wcsph(CubicSpline<3>{}, Tait{.rho0 = 1000, .c0 = 20}, SummationDensity{}, Continuity<2>{},
+                PressureForce<2>{});
 }

@@ -76,6 +76,7 @@ TEST(SmoothingLength, ThatNobodyGivesIsBadInput)
     catch (BadInput const& e) {
         EXPECT_NE(std::string(e.what()).find("kernel.h"), std::string::npos) << e.what();
     }
+    EXPECT_THROW(scene({.h = std::nan("")}, Open{}), BadInput) << "a mistake is not an open length";
 }
 TEST(SmoothingLength, ThatIsTooLongForThePeriodIsBadInputAtTheFill)
 {

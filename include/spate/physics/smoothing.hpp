@@ -8,8 +8,6 @@
 #include "spate/core/fields.hpp"
 #include "spate/kernel/kernel.hpp"
 
-#include <cmath>
-
 namespace spate {
 
 /// What a term sees of a pair of smoothed particles.
@@ -40,7 +38,7 @@ struct Smoothing {
     /// Whether h is left to the spacing.
     [[nodiscard]] bool open() const
     {
-        if constexpr (requires { K::smoothing; }) return std::isnan(kernel.h);
+        if constexpr (requires { K::smoothing; }) return kernel.h == from_spacing;
         else return false;
     }
     void complete(double spacing)

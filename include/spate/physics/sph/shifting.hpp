@@ -8,7 +8,6 @@
 #include "spate/kernel/kernel.hpp"
 #include "spate/physics/rows.hpp"
 
-#include <cmath>
 #include <tuple>
 
 namespace spate {
@@ -41,7 +40,7 @@ struct CrowdingSum {
         require_non_negative("Shifting.repulsion", repulsion, "-");
         require_positive("Shifting.w_spacing", w_spacing, "m^-dim");
     }
-    [[nodiscard]] bool open() const { return std::isnan(w_spacing); }
+    [[nodiscard]] bool open() const { return w_spacing == from_spacing; }
     void complete(double spacing, auto const& interaction)
     {
         auto const& kernel = interaction.kernel;
@@ -87,7 +86,7 @@ struct ShiftInside {
         require(most >= 0 && most <= 0.5, "Shifting.most", most, "0 to 0.5 [-]");
         require_positive("Shifting.spacing", spacing, "m");
     }
-    [[nodiscard]] bool open() const { return std::isnan(spacing); }
+    [[nodiscard]] bool open() const { return spacing == from_spacing; }
     void complete(double of_fill, auto const& interaction) { spacing = of_fill, h = interaction.kernel.h; }
 
     template <class V>

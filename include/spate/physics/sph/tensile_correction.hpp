@@ -7,8 +7,6 @@
 #include "spate/core/fields.hpp"
 #include "spate/kernel/kernel.hpp"
 
-#include <cmath>
-
 namespace spate {
 
 /// Tensile correction (Monaghan 2000, eqs. 3.1 to 3.8, with n = 4): dv_i/dt = -sum_j m_j R_ij (W_ij/W(dx))^4 grad W_ij,
@@ -28,7 +26,7 @@ struct TensileCorrection {
         require_non_negative("TensileCorrection.compression", compression, "-");
         require_positive("TensileCorrection.w_spacing", w_spacing, "m^-dim");
     }
-    [[nodiscard]] bool open() const { return std::isnan(w_spacing); }
+    [[nodiscard]] bool open() const { return w_spacing == from_spacing; }
     void complete(double spacing, auto const& interaction)
     {
         auto const& kernel = interaction.kernel;
