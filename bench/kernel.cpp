@@ -22,7 +22,7 @@ void values(benchmark::State& state, auto const& f)
     using T = scalar_t<V>;
     constexpr std::size_t n = 1024, W = std::size_t(width<V>);
     Array<T> q(n), y(n);
-    for (std::size_t k = 0; k < n; ++k) q[k] = T(2.2 * double(k) / n); // support 2, and a little beyond
+    for (std::size_t k = 0; k < n; ++k) q[k] = T(2.2 * double(k) / n); // a support of 2, and a little beyond
     least(state, n, 100, [&] {
         for (std::size_t k = 0; k < n; k += W) {
             V x = load<V>(q.data() + k);
@@ -83,6 +83,17 @@ void all_pair_terms()
     pair_terms("term/PressureForce", water(1.2, PressureForce<2>{}), m);
     pair_terms("term/LaminarViscosity", water(1.2, laminar), m);
     pair_terms("term/ArtificialViscosity", water(1.2, artificial), m);
+    pair_terms("term/SummationDensity", water(1.2, SummationDensity{}), m);
+    pair_terms("term/MonaghanCleary", water(1.2, MonaghanCleary<3>{.mu = 1e-3}), m);
+    pair_terms("term/VariableViscosity", water(1.2, VariableViscosity{.largest = 1e-3}), m);
+    pair_terms("term/TensileCorrection", water(1.2, TensileCorrection{}).at(dx), m);
+    pair_terms("term/Xsph", water(1.2, Xsph{}), m);
+    pair_terms("term/SigmaContinuity", water(1.2, SigmaContinuity{1.5}), m);
+    pair_terms("term/SigmaPressure", water(1.2, SigmaPressure{1.5}), m);
+    pair_terms("term/DensityReinit by Shepard", water(1.2, DensityReinit<Shepard>{}), m);
+    pair_terms("term/DensityReinit by Mls", water(1.2, DensityReinit<Mls>{}), m);
+    pair_terms("term/Shifting", water(1.2, Shifting{.mach = 0.1}).at(dx), m);
+    pair_terms("term/SurfaceShifting", water(1.2, SurfaceShifting{.mach = 0.1}).at(dx), m);
     pair_terms("term/DensityDiffusion", water(1.2, diffusion, Gravity<3>{{0, 0, -g}}), m);
     pair_terms("term/LinearSpring", dem<2>({.mass = 0.1, .radius = 0.01}, LinearSpring{.k = 1e5}), 0.1);
     pair_terms("term/fused laminar", water(1.2, Continuity<2>{}, PressureForce<2>{}, laminar), m);
@@ -172,7 +183,10 @@ void integrator()
 
 [[maybe_unused]] const bool registered = [] {
     kernel<CubicSpline<3>>("CubicSpline");
+    kernel<QuinticSpline<3>>("QuinticSpline");
     kernel<WendlandC2<3>>("WendlandC2");
+    kernel<WendlandC4<3>>("WendlandC4");
+    kernel<WendlandC6<3>>("WendlandC6");
     all_pair_terms();
     stages();
     integrator<ForwardEuler>();

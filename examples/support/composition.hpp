@@ -42,8 +42,8 @@ inline constexpr char const* wall_text = SPATE_TEXT(SPATE_WALL);
 #undef SPATE_TEXT
 #undef SPATE_TEXT_OF
 
-/// Smoothing length over spacing: Wendland's kernel is exact enough on wide supports only (docs/models).
-inline constexpr double smoothing = std::same_as<Kernel, spate::WendlandC2<dim>> ? (dim == 3 ? 1.5 : 2.0) : 1.2;
+/// Smoothing length over spacing: Wendland's kernels are exact enough on wide supports only (docs/models).
+inline constexpr double smoothing = Kernel::smoothing;
 
 /// The backend with the numbers of the command line.
 template <class B = Backend>

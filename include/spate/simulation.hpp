@@ -102,6 +102,7 @@ public:
         double particles = 1;
         for (auto k : n) particles *= k;
         require(particles <= most, "spacing", spacing, "one that gives at most 2147483647 particles");
+        complete(spacing);
         set_mass(spacing);
         auto& p = system_.mobile();
         const std::size_t first = p.size();
@@ -144,6 +145,9 @@ public:
     /// Tells the scene that particles were changed by hand.
     [[gnu::cold]] void prepare()
     {
+        if (physics().open())
+            throw BadInput("spacing", "not known",
+                           "given by a fill, or kernel.h and what terms want of it by hand [m]");
         check_particles();
         if (step_ == 0) check_places();
         system_.use(make_grid());
@@ -276,13 +280,25 @@ private:
     [[gnu::cold]] static P const& checked(P const& physics, B const& boundary, Workers const& backend,
                                           Neighbours const& n, W const& watch)
     {
-        physics.check();
+        if (!physics.open()) check_physics(physics, boundary, n);
         backend.check();
         n.check();
         watch.check();
-        boundary.check(physics.interaction.range() * (1 + n.skin));
         require(backend.cell >= 0 && backend.cell <= 32, "cell", backend.cell, "0 (by dimension), or 1 to 32 ranges");
         return physics;
+    }
+    static void check_physics(P const& physics, B const& boundary, Neighbours const& n)
+    {
+        physics.check();
+        boundary.check(physics.interaction.range() * (1 + n.skin));
+    }
+    /// What the physics leaves to the spacing of the particles.
+    void complete(double spacing)
+    {
+        if (!physics().open()) return;
+        const P whole = physics().at(spacing);
+        check_physics(whole, system_.boundary(), system_.neighbours());
+        system_.complete(whole);
     }
     /// Mass from the spacing, where mass is uniform and follows from a reference density.
     [[gnu::cold]] void set_mass(double spacing)
@@ -315,6 +331,7 @@ private:
     [[gnu::cold]] void place_markers()
     {
         if constexpr (Engine::species_count == 2) {
+            complete(system_.boundary().spacing());
             auto& p = system_.template species<1>().particles;
             std::vector<Point> x;
             system_.boundary().place(physics().interaction.range(), [&](Point const& at) { x.push_back(at); });

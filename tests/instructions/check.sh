@@ -67,12 +67,12 @@ case $what in
     terms | spills)
         build terms terms.cpp
         loops > "$out/loops.txt"
-        echo "inner loop of continuity and pressure force (P) with laminar viscosity (L), artificial viscosity (A), diffusion (D):"
+        echo "inner loop of continuity and pressure force (P) with laminar viscosity (L), artificial viscosity (A), diffusion (D), central viscosity (M), tensile correction (T), XSPH (X):"
         echo "terms instructions stack-stores stack-loads divisions"
         cat "$out/loops.txt"
         ;;&
     terms)
-        for pair in 'P PL' 'P PA' 'P PD' 'PA PAD' 'PD PAD'; do
+        for pair in 'P PL' 'P PA' 'P PD' 'PA PAD' 'PD PAD' 'P PM' 'P PT' 'P PX'; do
             read -r less more <<< "$pair"
             a=$(number "$less") b=$(number "$more")
             [[ -n $a && -n $b ]] || {

@@ -1,6 +1,6 @@
 # From `objdump -dC --no-show-raw-insn` of an object: for each function with a packed square root, the smallest loop around
-# it. One line a loop: its terms (P of every fluid, L laminar, A artificial viscosity, D density diffusion), instructions,
-# stores to the stack, loads from it, divisions.
+# it. One line a loop: its terms (P of every fluid, L laminar, A artificial viscosity, D density diffusion, M central
+# viscosity, T tensile correction, X XSPH), instructions, stores to the stack, loads from it, divisions.
 function operands(text) { sub(/^[^ \t]+[ \t]+/, "", text); return text }
 function finish(    r, k, to, from, at, n, stores, loads, divisions, text, terms) {
     for (r = 0; r < count; ++r) {
@@ -23,6 +23,9 @@ function finish(    r, k, to, from, at, n, stores, loads, divisions, text, terms
         if (name ~ /LaminarViscosity/) terms = terms "L"
         if (name ~ /ArtificialViscosity/) terms = terms "A"
         if (name ~ /Fourtakas/) terms = terms "D"
+        if (name ~ /MonaghanCleary/) terms = terms "M"
+        if (name ~ /TensileCorrection/) terms = terms "T"
+        if (name ~ /Xsph/) terms = terms "X"
         print terms, n, stores, loads, divisions
     }
 }

@@ -19,3 +19,6 @@ template void sweep(LaminarViscosity);
 template void sweep(ArtificialViscosity);
 template void sweep(DensityDiffusion);
 template void sweep(ArtificialViscosity, DensityDiffusion);
+template void sweep(MonaghanCleary<3>);
+template void sweep(TensileCorrection);
+template void sweep(Xsph);

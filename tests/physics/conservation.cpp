@@ -127,6 +127,7 @@ TYPED_TEST(Conservation, OfMomentaAndEnergyWithOneSigma)
     };
     check(random_state<dim>(Open{}, tait, Continuity<1>{}, PressureForce<1>{}));
     check(random_state<dim>(Open{}, tait, Continuity<2>{}, PressureForce<2>{}));
+    check(random_state<dim>(Open{}, tait, SigmaContinuity{1.5, rho0}, SigmaPressure{1.5, rho0}));
 }
 
 TYPED_TEST(Conservation, OfMomentumButNotOfEnergyWithMixedSigma)
@@ -141,6 +142,8 @@ TYPED_TEST(Conservation, OfMomentumButNotOfEnergyWithMixedSigma)
     };
     check(random_state<dim>(Open{}, tait, Continuity<1>{}, PressureForce<2>{}));
     check(random_state<dim>(Open{}, tait, Continuity<2>{}, PressureForce<1>{}));
+    check(random_state<dim>(Open{}, tait, Continuity<2>{}, SigmaPressure{1.5, rho0}));
+    check(random_state<dim>(Open{}, tait, SigmaContinuity{1.5, rho0}, PressureForce<1>{}));
 }
 
 TYPED_TEST(Conservation, AcrossPeriodicFaces)
@@ -166,6 +169,16 @@ TYPED_TEST(Conservation, OfMomentumByViscosity)
     EXPECT_LE(angular_momentum<dim>(a), rounding(a)) << "a central force";
     this->note("artificial", momentum<dim>(a));
 
+    auto central = random_state<dim>(Open{}, MonaghanCleary<dim>{.mu = 1});
+    auto const& b = central.particles();
+    EXPECT_LE(momentum<dim>(b), rounding(b));
+    EXPECT_LE(angular_momentum<dim>(b), rounding(b)) << "a central force";
+    this->note("monaghan_cleary", angular_momentum<dim>(b));
+    double work_of_central = 0;
+    for (std::size_t i = 0; i < b.size(); ++i)
+        work_of_central += b.at(mass, i) * b.at(velocity, i).dot(b.at(acceleration, i));
+    EXPECT_LT(work_of_central, 0);
+
     auto laminar = random_state<dim>(Open{}, LaminarViscosity{.mu = 1});
     auto const& l = laminar.particles();
     EXPECT_LE(momentum<dim>(l), rounding(l));
@@ -179,6 +192,47 @@ TYPED_TEST(Conservation, OfMomentumByViscosity)
         work_of_laminar += l.at(mass, i) * l.at(velocity, i).dot(l.at(acceleration, i));
     EXPECT_LT(work_of_artificial, 0);
     EXPECT_LT(work_of_laminar, 0);
+}
+
+TYPED_TEST(Conservation, OfMomentaByTensileCorrection)
+{
+    constexpr int dim = TestFixture::dim;
+    auto sim = random_state<dim>(Open{}, tait, TensileCorrection{});
+    auto const& p = sim.particles();
+    EXPECT_LE(momentum<dim>(p), rounding(p));
+    EXPECT_LE(angular_momentum<dim>(p), rounding(p)) << "a central force";
+    this->note("momentum", momentum<dim>(p));
+}
+
+TYPED_TEST(Conservation, OfMomentumByXsph) // of the velocity that positions follow
+{
+    constexpr int dim = TestFixture::dim;
+    auto sim = random_state<dim>(Open{}, tait, Xsph{});
+    auto const& p = sim.particles();
+    for (int c = 0; c < dim; ++c) {
+        ExactSum own, moving;
+        double size = 0;
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            own.add(p.at(mass, i) * p.at(velocity, i)[c]);
+            moving.add(p.at(mass, i) * p.at(transport_velocity, i)[c]);
+            size += p.at(mass, i) * std::abs(p.at(transport_velocity, i)[c] - p.at(velocity, i)[c]);
+        }
+        EXPECT_GT(size, 0);
+        EXPECT_LE(std::abs(own.value() - moving.value()) / size, rounding(p));
+    }
+}
+
+TYPED_TEST(Conservation, OfMomentumByViscosityOfEachParticle)
+{
+    constexpr int dim = TestFixture::dim;
+    auto sim = random_state<dim>(Open{}, VariableViscosity{.largest = 2});
+    auto& p = sim.particles();
+    oracle::Dice dice(3);
+    for (std::size_t i = 0; i < p.size(); ++i) p.put(viscosity, i, dice.real(0, 2));
+    sim.system().rates(sim.system().all);
+    EXPECT_LE(momentum<dim>(p), rounding(p));
+    EXPECT_GT(angular_momentum<dim>(p), 1e-6) << "as of laminar viscosity";
+    this->note("momentum", momentum<dim>(p));
 }
 
 /// The diffusion of a pair is antisymmetric in V_i d rho_i: that sum is what it keeps.

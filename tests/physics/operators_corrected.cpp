@@ -39,18 +39,6 @@ inline constexpr struct Beta : VectorField      { static constexpr std::string_v
 inline constexpr struct Fitted : ScalarField    { static constexpr std::string_view name = "fitted"; static constexpr bool derived = true; } fitted{};
 // clang-format on
 
-/// Rows of a matrix, one field each.
-template <template <int> class R, int Dim>
-constexpr auto all_rows()
-{
-    return []<int... k>(std::integer_sequence<int, k...>) { return Fields<R<k>...>{}; }
-    (std::make_integer_sequence<int, Dim>{});
-}
-void each_row(auto set, auto const& f)
-{
-    int k = 0;
-    for_each(set, [&](auto row) { f(row, k++); });
-}
 /// Solves A x = b for a symmetric positive A, lane by lane, without a branch.
 template <std::size_t n, class V>
 std::array<V, n> solved(std::array<std::array<V, n>, n> a, std::array<V, n> b)
@@ -71,26 +59,26 @@ template <int Dim>
 struct Moments {
     static constexpr Fields reads_j{mass, density, signal};
     static constexpr Fields reads_i{signal};
-    static constexpr auto adds = all_rows<MomentRow, Dim>() | Fields{plain};
+    static constexpr auto adds = rows_of<MomentRow, Dim>() | Fields{plain};
     static constexpr When when = When::before_step;
     void operator()(auto& i, auto const& j, auto const& ij) const
     {
         const auto V_j = j[mass] / j[density];
-        each_row(all_rows<MomentRow, Dim>(), [&](auto row, int k) { i[row] -= (V_j * ij.grad_w[k]) * ij.x; });
+        each_row(rows_of<MomentRow, Dim>(), [&](auto row, int k) { i[row] -= (V_j * ij.grad_w[k]) * ij.x; });
         i[plain] += (V_j * (j[signal] - i[signal])) * ij.grad_w;
     }
 };
 template <int Dim>
 struct InvertMoments {
-    static constexpr auto reads = all_rows<MomentRow, Dim>();
-    static constexpr auto writes = all_rows<CorrectionRow, Dim>();
+    static constexpr auto reads = rows_of<MomentRow, Dim>();
+    static constexpr auto writes = rows_of<CorrectionRow, Dim>();
     static constexpr When when = When::before_step;
     void operator()(auto& i) const
     {
         using V = std::remove_cvref_t<decltype(i[MomentRow<0>{}][0])>;
         constexpr auto n = std::size_t(Dim);
         std::array<std::array<V, n>, n> a, inverse;
-        each_row(all_rows<MomentRow, Dim>(), [&](auto row, int k) {
+        each_row(rows_of<MomentRow, Dim>(), [&](auto row, int k) {
             for (int c = 0; c < Dim; ++c) a[std::size_t(k)][std::size_t(c)] = i[row][c];
         });
         for (std::size_t c = 0; c < n; ++c) { // M is symmetric, since grad W is along x
@@ -98,7 +86,7 @@ struct InvertMoments {
             for (std::size_t k = 0; k < n; ++k) e[k] = V(k == c ? 1 : 0);
             inverse[c] = solved(a, e);
         }
-        each_row(all_rows<CorrectionRow, Dim>(), [&](auto row, int k) {
+        each_row(rows_of<CorrectionRow, Dim>(), [&](auto row, int k) {
             Vec<Dim, V> l;
             for (int c = 0; c < Dim; ++c) l[c] = inverse[std::size_t(k)][std::size_t(c)];
             i[row] = l;
@@ -108,21 +96,21 @@ struct InvertMoments {
 template <int Dim>
 struct CorrectedGradient {
     static constexpr Fields reads_j{mass, density, signal};
-    static constexpr auto reads_i = all_rows<CorrectionRow, Dim>() | Fields{signal};
+    static constexpr auto reads_i = rows_of<CorrectionRow, Dim>() | Fields{signal};
     static constexpr Fields adds{corrected};
     static constexpr When when = When::before_step;
     void operator()(auto& i, auto const& j, auto const& ij) const
     {
         const auto df = j[mass] / j[density] * (j[signal] - i[signal]);
         auto g = ij.x;
-        each_row(all_rows<CorrectionRow, Dim>(), [&](auto row, int k) { g[k] = df * i[row].dot(ij.grad_w); });
+        each_row(rows_of<CorrectionRow, Dim>(), [&](auto row, int k) { g[k] = df * i[row].dot(ij.grad_w); });
         i[corrected] += g;
     }
 };
 template <int Dim>
 struct Averages {
     static constexpr Fields reads_j{mass, density};
-    static constexpr auto adds = all_rows<SecondRow, Dim>() | Fields{zeroth, first, average};
+    static constexpr auto adds = rows_of<SecondRow, Dim>() | Fields{zeroth, first, average};
     static constexpr bool self = true;
     static constexpr When when = When::before_step;
     void operator()(auto& i, auto const& j, auto const& ij) const
@@ -130,13 +118,13 @@ struct Averages {
         const auto V_w = j[mass] / j[density] * ij.w;
         i[zeroth] += V_w;
         i[first] += V_w * ij.x;
-        each_row(all_rows<SecondRow, Dim>(), [&](auto row, int k) { i[row] += (V_w * ij.x[k]) * ij.x; });
+        each_row(rows_of<SecondRow, Dim>(), [&](auto row, int k) { i[row] += (V_w * ij.x[k]) * ij.x; });
         i[average] += j[mass] * ij.w;
     }
 };
 template <int Dim>
 struct Solve {
-    static constexpr auto reads = all_rows<SecondRow, Dim>() | Fields{zeroth, first, average};
+    static constexpr auto reads = rows_of<SecondRow, Dim>() | Fields{zeroth, first, average};
     static constexpr Fields writes{shepard, beta0, beta};
     static constexpr When when = When::before_step;
     double h; ///< scales the moments to one size [m]
@@ -153,7 +141,7 @@ struct Solve {
             a[0][std::size_t(c) + 1] = a[std::size_t(c) + 1][0] = m[c] * (1 / h);
             b[std::size_t(c) + 1] = V(0);
         }
-        each_row(all_rows<SecondRow, Dim>(), [&](auto row, int k) {
+        each_row(rows_of<SecondRow, Dim>(), [&](auto row, int k) {
             for (int c = 0; c < Dim; ++c) a[std::size_t(k) + 1][std::size_t(c) + 1] = i[row][c] * (1 / (h * h));
         });
         const auto x = solved(a, b);

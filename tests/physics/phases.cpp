@@ -75,4 +75,19 @@ TEST(Phases, SumThatIsNoRateIsMadeByRefresh)
         EXPECT_NEAR(p.at(kernel_weight, i), sum, 1e-12 * sum);
     }
 }
+TEST(Phases, TermThatChangesTheStateMakesTheForceAtTheEndOfAStepStale)
+{
+    auto kept = [](auto... term) {
+        Simulation s(wcsph(CubicSpline<2>{.h = 0.012}, Tait{.rho0 = 1000, .c0 = 10}, Continuity<2>{},
+                           PressureForce<2>{}, term...),
+                     Leapfrog{}, Open{});
+        s.fill(Box<2>{{0, 0}, {0.1, 0.1}}, 0.01);
+        s.run({.steps = 1, .dt = 1e-5});
+        return s.system().kick_rates_current();
+    };
+    EXPECT_TRUE(kept());
+    EXPECT_TRUE(kept(NotePressure{}));
+    EXPECT_FALSE(kept(HalveSpeed{1}));
+    EXPECT_FALSE(kept(DensityReinit<Shepard>{}));
+}
 } // namespace

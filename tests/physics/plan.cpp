@@ -208,4 +208,26 @@ TEST(Plan, LeavesOutWhatNobodyAskedFor)
     EXPECT_EQ((planner<2>({make_b, make_c}, a).plan({0}).count), 0);
 }
 
+/// A phase that changes a given field which its own sums read: they run on the state before it, and nobody else waits.
+TEST(Plan, OfAPhaseThatChangesTheStateBringsItsSumsOfTheStateBefore)
+{
+    using P = decltype(wcsph(CubicSpline<2>{1}, Tait{1000, 10}, Continuity<2>{}, PressureForce<2>{},
+                             DensityReinit<Shepard>{}, Shifting{.mach = 0.1}));
+    using M = Model<P, Open>;
+    const Lines terms{"Tait",          "Continuity",  "PressureForce", "ReinitSums",
+                      "ReinitDensity", "CrowdingSum", "ShiftInside"};
+    static constexpr auto reinit = M::phase_plan<When::after_step, 4>(), shift = M::phase_plan<When::after_step, 6>();
+    EXPECT_TRUE(reinit.complete && shift.complete);
+    const auto a = lines<M>(reinit, terms), b = lines<M>(shift, terms);
+    EXPECT_EQ(a.size(), 3u);
+    EXPECT_EQ(a[1], "sweep mobile: ReinitSums");
+    EXPECT_EQ(a[2], "pass mobile: ReinitDensity") << "no shift: that has its own turn";
+    EXPECT_EQ(b.size(), 3u);
+    EXPECT_EQ(b[1], "sweep mobile: CrowdingSum");
+    EXPECT_EQ(b[2], "pass mobile: ShiftInside");
+    static constexpr auto rates = M::rates_plan<All>();
+    EXPECT_EQ(rates.sweeps(), 1);
+    for (auto const& line : lines<M>(rates, terms)) EXPECT_EQ(line.find("Sum"), std::string::npos) << line;
+}
+
 } // namespace

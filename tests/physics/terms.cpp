@@ -16,18 +16,19 @@ constexpr double pi = std::numbers::pi;
 template <int Dim>
 struct State {
     Vec<Dim, double> x{}, v{};
-    double rho = 1000, p = 0, m = 1, r = 0.5;
+    double rho = 1000, p = 0, m = 1, r = 0.5, mu = 0.1;
 };
 template <class V, int Dim>
 auto record(State<Dim> const& s)
 {
-    Record<Dim, V, Fields<Position, Velocity, Density, Pressure, Mass, Radius>> r;
+    Record<Dim, V, Fields<Position, Velocity, Density, Pressure, Mass, Radius, Viscosity>> r;
     r[position] = broadcast<V>(s.x), r[velocity] = broadcast<V>(s.v);
     r[density] = V(s.rho), r[pressure] = V(s.p), r[mass] = V(s.m), r[radius] = V(s.r);
+    r[viscosity] = V(s.mu);
     return r;
 }
 template <class V, int Dim>
-using Sums = Record<Dim, V, Fields<Acceleration, DensityRate>>;
+using Sums = Record<Dim, V, Fields<Acceleration, DensityRate, Density, TransportVelocity, Crowding>>;
 
 /// The geometry of a pair as an interaction gives it.
 template <class V, class I>
@@ -123,6 +124,75 @@ TEST(LaminarViscosity, OfTwoParticlesByHand) // x . grad W = G, mean density 100
     const double bare = 2 * 2 * 0.3 * G / (1000.0 * 1000);
     expect_vector(of_pair(plane, LaminarViscosity{.mu = 0.3, .eps = 0}, i, j)[acceleration], bare * 2, bare * 1);
     expect_number((LaminarViscosity{.mu = 0.3}.kinematic_viscosity(1000, 1, 2)), 0.3e-3);
+}
+
+TEST(MonaghanCleary, OfTwoParticlesByHand) // v_ij . x = 2
+{
+    const double f = 2 * (2 * 4 * 0.3 / (1100.0 * 900)) * 2 / 1.01 * G;
+    const MonaghanCleary<2> term{.mu = 0.3};
+    expect_vector(of_pair(plane, term, i, j)[acceleration], 0.6 * f, 0.8 * f);
+    EXPECT_LT(f, 0) << "who part are held";
+    expect_number(term.kinematic_viscosity(1000, 1, 2), 3 * 0.3e-3);
+}
+
+TEST(VariableViscosity, OfTwoParticlesByHand) // x . grad W = G, mean density 1000
+{
+    State<2> thick = i, thin = j;
+    thick.mu = 0.5, thin.mu = 0.1;
+    const double f = 2 * (0.5 + 0.1) * G / (1000.0 * 1000 * 1.01);
+    expect_vector(of_pair(plane, VariableViscosity{.largest = 1}, thick, thin)[acceleration], f * 2, f * 1);
+    thick.mu = thin.mu = 0.3;
+    const auto same = of_pair(plane, LaminarViscosity{.mu = 0.3}, i, j)[acceleration];
+    expect_vector(of_pair(plane, VariableViscosity{.largest = 1}, thick, thin)[acceleration], same[0], same[1]);
+}
+
+TEST(SpeciesViscosity, IsLaminarViscosityOfOneRole)
+{
+    const auto all = of_pair(plane, LaminarViscosity{.mu = 0.3}, i, j)[acceleration];
+    EXPECT_EQ(of_pair(plane, SpeciesViscosity<Role::mobile>{.mu = 0.3}, i, j)[acceleration], all);
+    EXPECT_EQ(of_pair(plane, SpeciesViscosity<Role::marker>{.mu = 0.3}, i, j)[acceleration], all);
+    EXPECT_EQ(between<SpeciesViscosity<Role::marker>>().source, Role::marker);
+    EXPECT_EQ(between<SpeciesViscosity<Role::marker>>().target, Role::mobile);
+}
+
+TEST(TensileCorrection, OfTwoParticlesByHand) // W(1)/W(1/2), by f: (1/2)^4 3 / ((3/4)^4 2)
+{
+    TensileCorrection term;
+    EXPECT_TRUE(term.open());
+    term.complete(0.5, plane);
+    EXPECT_FALSE(term.open());
+    const double f = std::pow(3.0 / 16 / (81.0 / 128), 4);
+    const double pull = -2 * 0.2 * (300.0 / (900.0 * 900)) * f * G; // only j is under tension
+    expect_vector(of_pair(plane, term, i, j)[acceleration], 0.6 * pull, 0.8 * pull);
+    EXPECT_GT(pull, 0) << "it pushes apart";
+    State<2> pressed = j, torn = i;
+    pressed.p = 700, torn.p = -100;
+    const double push = -2 * 0.01 * (500.0 / (1100 * 1100) + 700.0 / (900 * 900)) * f * G;
+    expect_vector(of_pair(plane, term, i, pressed)[acceleration], 0.6 * push, 0.8 * push);
+    const double both = -2 * 0.2 * (100.0 / (1100 * 1100) + 300.0 / (900 * 900)) * f * G;
+    expect_vector(of_pair(plane, term, torn, j)[acceleration], 0.6 * both, 0.8 * both);
+}
+
+TEST(Xsph, OfTwoParticlesByHand) // mean density 1000, v_j - v_i = -(2, 1)
+{
+    const double k = 0.5 * 2 * 7 / (4 * pi) * 3 / 16 / 1000;
+    expect_vector(of_pair(plane, Xsph{.eps = 0.5}, i, j)[transport_velocity], -2 * k, -k);
+}
+
+TEST(Shifting, OfTwoParticlesByHand) // W(1)/W(1/2) as of the tensile correction
+{
+    CrowdingSum term{.repulsion = 0.2};
+    EXPECT_TRUE(term.open());
+    term.complete(0.5, plane);
+    const double s = (1 + 0.2 * std::pow(3.0 / 16 / (81.0 / 128), 4)) * 2 / 2000 * G;
+    expect_vector(of_pair(plane, term, i, j)[crowding], 0.6 * s, 0.8 * s);
+    EXPECT_LT(s, 0) << "towards the other; the shift is against it";
+}
+
+TEST(SummationDensity, OfTwoParticlesByHand)
+{
+    expect_number(of_pair(plane, SummationDensity{}, i, j)[density], 2 * 7 / (4 * pi) * 3 / 16);
+    EXPECT_TRUE(has_self<SummationDensity>);
 }
 
 TEST(ArtificialViscosity, ActsOnApproachingPairsOnly)
@@ -353,7 +423,7 @@ void expect_nothing(auto const& interaction, auto const& term)
             State<Dim> s;
             for (int c = 0; c < Dim; ++c) s.x[c] = dice.real(-3, 3), s.v[c] = dice.real(-20, 20);
             s.rho = dice.real(800, 1200), s.p = dice.real(-1e5, 1e6), s.m = dice.real(1e-6, 1e3);
-            s.r = range / 2;
+            s.r = range / 2, s.mu = dice.real(0, 2);
             return s;
         };
         const State<Dim> target = draw();
@@ -368,11 +438,17 @@ void expect_nothing(auto const& interaction, auto const& term)
         clear(before);
         if (trial % 4 >= 2) {
             before[density_rate] = V(dice.real(-1, 1));
+            before[density] = V(dice.real(500, 1500));
             for (int c = 0; c < Dim; ++c) before[acceleration][c] = V(dice.real(-1, 1));
         }
         const Sums<V, Dim> after = add_pair<V>(interaction, term, target, other, before);
         EXPECT_TRUE(same_bits(before[density_rate], after[density_rate])) << trial;
-        for (int c = 0; c < Dim; ++c) EXPECT_TRUE(same_bits(before[acceleration][c], after[acceleration][c])) << trial;
+        EXPECT_TRUE(same_bits(before[density], after[density])) << trial;
+        for (int c = 0; c < Dim; ++c) {
+            EXPECT_TRUE(same_bits(before[acceleration][c], after[acceleration][c])) << trial;
+            EXPECT_TRUE(same_bits(before[transport_velocity][c], after[transport_velocity][c])) << trial;
+            EXPECT_TRUE(same_bits(before[crowding][c], after[crowding][c])) << trial;
+        }
     }
 }
 template <class V, class K>
@@ -387,6 +463,17 @@ void expect_nothing_of_all_terms()
     expect_nothing<V, Dim>(smoothing, LaminarViscosity{.mu = 1e-3});
     expect_nothing<V, Dim>(smoothing, LaminarViscosity{.mu = 1e-3, .eps = 0});
     expect_nothing<V, Dim>(smoothing, ArtificialViscosity{.alpha = 0.1, .c0 = 30});
+    expect_nothing<V, Dim>(smoothing, MonaghanCleary<Dim>{.mu = 1e-3});
+    expect_nothing<V, Dim>(smoothing, VariableViscosity{.largest = 2});
+    expect_nothing<V, Dim>(smoothing, SpeciesViscosity<Role::mobile>{.mu = 1e-3});
+    expect_nothing<V, Dim>(smoothing, SummationDensity{});
+    TensileCorrection tensile;
+    tensile.complete(0.01, smoothing);
+    expect_nothing<V, Dim>(smoothing, tensile);
+    expect_nothing<V, Dim>(smoothing, Xsph{});
+    CrowdingSum crowd{.repulsion = 0.2};
+    crowd.complete(0.01, smoothing);
+    expect_nothing<V, Dim>(smoothing, crowd);
     for (double c0 : {1.0, 30.0, 1500.0}) { // slow sound makes rho_H of the sentinel large
         Vec<Dim, double> g{};
         g[Dim - 1] = -9.81;
@@ -427,8 +514,12 @@ TEST(Terms, GiveInPacksTheBitsOfScalars)
             const auto packed = add_pair<Pack<double>>(plane, term, a, b, zero);
             const auto scalar = of_pair(plane, term, a, b);
             EXPECT_TRUE(same_bits(packed[density_rate], Pack<double>(scalar[density_rate])));
-            for (int c = 0; c < 2; ++c)
+            EXPECT_TRUE(same_bits(packed[density], Pack<double>(scalar[density])));
+            for (int c = 0; c < 2; ++c) {
                 EXPECT_TRUE(same_bits(packed[acceleration][c], Pack<double>(scalar[acceleration][c])));
+                EXPECT_TRUE(same_bits(packed[transport_velocity][c], Pack<double>(scalar[transport_velocity][c])));
+                EXPECT_TRUE(same_bits(packed[crowding][c], Pack<double>(scalar[crowding][c])));
+            }
         }
     };
     check(Continuity<1>{});
@@ -436,6 +527,12 @@ TEST(Terms, GiveInPacksTheBitsOfScalars)
     check(PressureForce<1>{});
     check(PressureForce<2>{});
     check(LaminarViscosity{.mu = 0.3});
+    check(MonaghanCleary<2>{.mu = 0.3});
+    check(VariableViscosity{.largest = 2});
+    check(SummationDensity{});
+    check(Xsph{});
+    check(CrowdingSum{.repulsion = 0.2, .w_spacing = 0.5});
+    check(TensileCorrection{.w_spacing = 0.5});
     check(ArtificialViscosity{.alpha = 0.1, .c0 = 20});
     check(MolteniColagrossi{.delta = 0.1, .c0 = 20});
     check(Fourtakas<2>{.delta = 0.1, .c0 = 20, .rho0 = 1000, .g = {{1, -9}}, .curvature = 6});

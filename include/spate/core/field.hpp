@@ -63,6 +63,7 @@ struct Density;
 // clang-format off
 inline constexpr struct Mass : ScalarField         { static constexpr std::string_view name = "mass", unit = "kg"; } mass{};
 inline constexpr struct Radius : ScalarField       { static constexpr std::string_view name = "radius", unit = "m"; } radius{};
+inline constexpr struct Viscosity : ScalarField    { static constexpr std::string_view name = "viscosity", unit = "Pa s"; } viscosity{};
 inline constexpr struct Pressure : ScalarField     { static constexpr std::string_view name = "pressure", unit = "Pa"; static constexpr bool derived = true; } pressure{};
 inline constexpr struct DensityRate : ScalarField  { static constexpr std::string_view name = "density_rate", unit = "kg/m^3/s"; using rate_of = Density; static constexpr bool derived = true; } density_rate{};
 inline constexpr struct Density : ScalarField      { static constexpr std::string_view name = "density", unit = "kg/m^3"; static constexpr Kind kind = Kind::drift; using rates = Fields<DensityRate>; } density{};

@@ -15,7 +15,8 @@ template <int Dim>
 struct CubicSpline {
     static constexpr int dim = Dim;
     static constexpr double radius = 2;
-    double h; ///< smoothing length [m]; 1.2 to 1.3 spacings
+    static constexpr double smoothing = 1.2; ///< h over the spacing, unless h is given [-]
+    double h = from_spacing;                 ///< smoothing length [m]
 
     [[nodiscard]] double sigma() const
     {

@@ -7,8 +7,13 @@
 #include "spate/core/pack.hpp"
 
 #include <concepts>
+#include <limits>
 
 namespace spate {
+
+/// A length that follows from the spacing of the particles unless the user gives it: h of a kernel that says how many
+/// spacings it wants (`smoothing`), and the spacing itself where a term needs it. No NaN: that is what a mistake gives.
+inline constexpr double from_spacing = std::numeric_limits<double>::lowest();
 
 // clang-format off
 template <class K>

@@ -15,7 +15,8 @@ template <int Dim>
 struct WendlandC2 {
     static constexpr int dim = Dim;
     static constexpr double radius = 2;
-    double h; ///< smoothing length [m]; 1.5 (3D) to 2 (2D) spacings
+    static constexpr double smoothing = Dim == 3 ? 1.5 : 2; ///< h over the spacing, unless h is given [-]
+    double h = from_spacing;                                ///< smoothing length [m]
 
     [[nodiscard]] double sigma() const
     {

@@ -5,6 +5,7 @@
 
 #include "spate/core/particles.hpp"
 #include "spate/core/term.hpp"
+#include "spate/physics/transport.hpp"
 
 #include <tuple>
 
@@ -38,13 +39,23 @@ constexpr auto uniform_field(T const*)
     return Fields<>{};
 }
 
-/// All but the Uniform entries.
-auto only_terms(auto const&... t)
+/// All but the Uniform entries; what says `terms(interaction)` stands for those terms.
+template <class I>
+auto only_terms(I const& interaction, auto const&... t)
 {
-    return std::tuple_cat([](auto const& x) {
+    return std::tuple_cat([&](auto const& x) {
         if constexpr (is_uniform<std::remove_cvref_t<decltype(x)>>) return std::tuple<>{};
+        else if constexpr (requires { x.terms(interaction); }) return x.terms(interaction);
         else return std::tuple{x};
     }(t)...);
+}
+/// With the particles' own velocity, where a term corrects the velocity that positions follow.
+template <class... T>
+auto with_own_velocity(std::tuple<T...> terms)
+{
+    if constexpr ((decltype(adds<T>())::template contains<TransportVelocity> || ... || false))
+        return std::tuple_cat(terms, std::tuple{OwnVelocity{}});
+    else return terms;
 }
 template <class... T>
 void each_in(std::tuple<T...> const& t, auto&& f)
@@ -69,6 +80,30 @@ struct Physics {
     Terms terms;
     Record<dim, double, std::remove_cv_t<U>> uniforms{}; ///< their values
 
+    /// Whether a part leaves something to the spacing of the particles: it says `open()`, and takes it by
+    /// `complete(spacing)`, a term by `complete(spacing, interaction)`.
+    [[nodiscard]] bool open() const
+    {
+        bool any = false;
+        auto ask = [&](auto const& part) {
+            if constexpr (requires { part.open(); }) any = any || part.open();
+        };
+        ask(interaction);
+        detail::each_in(terms, ask);
+        return any;
+    }
+    /// Itself with what was left to the spacing [m]; what was given stays.
+    [[nodiscard]] Physics at(double spacing) const
+    {
+        Physics p = *this;
+        auto complete = [](auto& part, auto const&... known) {
+            if constexpr (requires { part.open(); })
+                if (part.open()) part.complete(known...);
+        };
+        complete(p.interaction, spacing);
+        std::apply([&](auto&... t) { (complete(t, spacing, p.interaction), ...); }, p.terms);
+        return p;
+    }
     /// Throws BadInput for the first parameter out of range.
     [[gnu::cold]] void check() const
     {
@@ -91,7 +126,7 @@ auto physics(I interaction, A... a)
         };
         (set(a), ...);
         return p;
-    }(detail::only_terms(a...));
+    }(detail::with_own_velocity(detail::only_terms(interaction, a...)));
 }
 
 } // namespace spate

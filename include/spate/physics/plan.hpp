@@ -103,7 +103,7 @@ struct Planner {
                     const auto& f = term[std::size_t(t)];
                     auto& mine = terms[std::size_t(s)];
                     if (!on(t, s) || (f.when != w && f.when != When::evaluation) || (mine & bit(t)) != 0) continue;
-                    if (((f.writes | f.adds) & wanted[std::size_t(s)]) == 0) continue;
+                    if ((makes(t, s) & wanted[std::size_t(s)]) == 0) continue;
                     mine |= bit(t);
                     more = true;
                     wanted[std::size_t(s)] |= f.reads_i;
@@ -120,7 +120,13 @@ struct Planner {
     {
         return ordered(needed(wanted, w));
     }
-    /// The stages that bring a term of a phase what it reads, and run it.
+    /// What a term makes for others on species s: a term of a phase changes the state in its own turn, and only its own.
+    [[nodiscard]] constexpr Mask makes(int t, int s) const
+    {
+        const auto& f = term[std::size_t(t)];
+        return (f.writes | f.adds) & (f.when == When::evaluation ? ~Mask(0) : ~species[std::size_t(s)].given);
+    }
+    /// The stages that bring a term of a phase what it reads of the state before it, and run it.
     [[nodiscard]] constexpr Plan<Terms, Species> plan_of(int t, When w) const
     {
         std::array<Mask, std::size_t(Species)> read{};
@@ -146,8 +152,7 @@ private:
         for (int s = 0; s < Species; ++s) {
             there[std::size_t(s)] = species[std::size_t(s)].given;
             for (int t = 0; t < Terms; ++t) // a field is there when the last term that makes it has run
-                if ((pending[std::size_t(s)] & bit(t)) != 0)
-                    there[std::size_t(s)] &= ~(term[std::size_t(t)].writes | term[std::size_t(t)].adds);
+                if ((pending[std::size_t(s)] & bit(t)) != 0) there[std::size_t(s)] &= ~makes(t, s);
         }
         for (bool more = true; more;) more = passes(p, pending, there, fresh) || sweeps(p, pending, there, fresh);
         for (Mask left : pending) p.complete = p.complete && left == 0;
@@ -192,9 +197,8 @@ private:
         Mask done = 0, left = 0;
         pending[std::size_t(s)] &= ~terms;
         for (int t = 0; t < Terms; ++t) {
-            const Mask made = term[std::size_t(t)].writes | term[std::size_t(t)].adds;
-            if ((terms & bit(t)) != 0) done |= made;
-            if ((pending[std::size_t(s)] & bit(t)) != 0) left |= made;
+            if ((terms & bit(t)) != 0) done |= term[std::size_t(t)].writes | term[std::size_t(t)].adds;
+            if ((pending[std::size_t(s)] & bit(t)) != 0) left |= makes(t, s);
         }
         there[std::size_t(s)] |= done & ~left;
         fresh[std::size_t(s)] &= ~done;

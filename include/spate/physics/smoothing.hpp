@@ -35,6 +35,16 @@ struct Smoothing {
     /// Length of the time-step criteria [m].
     [[nodiscard]] double length() const { return kernel.h; }
     [[gnu::cold]] void check() const { require_positive("kernel.h", kernel.h, "m"); }
+    /// Whether h is left to the spacing.
+    [[nodiscard]] bool open() const
+    {
+        if constexpr (requires { K::smoothing; }) return kernel.h == from_spacing;
+        else return false;
+    }
+    void complete(double spacing)
+    {
+        if constexpr (requires { K::smoothing; }) kernel.h = K::smoothing * spacing;
+    }
 
     template <class V>
     [[gnu::always_inline]] auto pair(auto const& i, auto const& j) const

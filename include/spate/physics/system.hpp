@@ -106,6 +106,12 @@ public:
         return n;
     }
     P const& physics() const { return physics_; }
+    /// What the physics left open is known now: before the first evaluation.
+    void complete(P physics)
+    {
+        physics_ = std::move(physics);
+        terms_ = M::terms_of(physics_, boundary_);
+    }
     /// Parameters of the terms may change between steps; the same types, so no plan changes.
     auto& terms() { return terms_; }
     auto const& terms() const { return terms_; }
@@ -511,6 +517,8 @@ private:
                 if (step % term.every != 0) return;
             if constexpr (plan.sweeps() > 0) current();
             run<plan>();
+            constexpr auto& facts = M::planner.term[std::size_t(k)];
+            if constexpr (((facts.writes | facts.adds) & M::mask(M::template evolving<0>())) != 0) kick_rates_ = false;
         }
     }
     template <auto const& plan>

@@ -10,10 +10,20 @@
 #include "spate/physics/sph/artificial_viscosity.hpp"
 #include "spate/physics/sph/continuity.hpp"
 #include "spate/physics/sph/density_diffusion.hpp"
+#include "spate/physics/sph/density_reinit.hpp"
 #include "spate/physics/sph/laminar_viscosity.hpp"
 #include "spate/physics/sph/linear_eos.hpp"
+#include "spate/physics/sph/monaghan_cleary.hpp"
 #include "spate/physics/sph/pressure_force.hpp"
+#include "spate/physics/sph/shifting.hpp"
+#include "spate/physics/sph/sigma_continuity.hpp"
+#include "spate/physics/sph/sigma_pressure.hpp"
+#include "spate/physics/sph/species_viscosity.hpp"
+#include "spate/physics/sph/summation_density.hpp"
 #include "spate/physics/sph/tait.hpp"
+#include "spate/physics/sph/tensile_correction.hpp"
+#include "spate/physics/sph/variable_viscosity.hpp"
+#include "spate/physics/sph/xsph.hpp"
 
 namespace spate {
 
@@ -60,6 +70,10 @@ auto completed(X t, ModelConstants<Dim> const& m)
         return t;
     }
 }
+template <class F, class Terms>
+inline constexpr bool any_adds = false;
+template <class F, class... T>
+inline constexpr bool any_adds<F, std::tuple<T...>> = (decltype(adds<T>())::template contains<F> || ...);
 } // namespace detail
 
 /// Weakly compressible SPH: `wcsph(CubicSpline<3>{.h = 1.2 * dx}, Tait{...}, Continuity<2>{}, ...)`.
@@ -72,7 +86,12 @@ auto wcsph(K kernel, T... term)
     static_assert((int(EquationOfState<T>) + ... + 0) == 1,
                   "spate: wcsph needs exactly one equation of state; add Tait{.rho0, .c0} or LinearEos{.rho0, .c0}");
     const auto m = detail::constants_of<K::dim>(term...);
-    return physics(Smoothing<K>{kernel}, Uniform{mass, 0.0}, detail::completed(term, m)...);
+    const auto fluid = physics(Smoothing<K>{kernel}, Uniform{mass, 0.0}, detail::completed(term, m)...);
+    using Terms = typename std::remove_cv_t<decltype(fluid)>::Terms;
+    static_assert(!detail::any_adds<Density, Terms> || !detail::any_adds<DensityRate, Terms>,
+                  "spate: density is summed or follows continuity; leave out SummationDensity or the terms that add to "
+                  "density_rate");
+    return fluid;
 }
 
 /// The equation of state among the terms of a physics.
