@@ -7,6 +7,7 @@
 #include "spate/backend/serial.hpp"
 #include "spate/boundary/boundary.hpp"
 #include "spate/integrator/integrator.hpp"
+#include "spate/measure/nearest_image.hpp"
 #include "spate/measure/watch.hpp"
 #include "spate/physics/sph/stability.hpp"
 #include "spate/physics/system.hpp"
@@ -79,7 +80,7 @@ public:
     }
 
     // ---- particles
-    /// Fills a box with particles at the centres of cubes of edge `spacing` [m]; `start` is `hydrostatic` or is called
+    /// Fills a box with particles at the centres of cubes of edge `spacing` [m], but where a solid is; `start` is `hydrostatic` or is called
     /// with (particles, i) for each new one. Returns how many.
     template <class Start = std::nullptr_t>
     std::size_t fill(Box<dim> const& box, double spacing, Start start = nullptr)
@@ -107,7 +108,7 @@ public:
         const std::size_t first = p.size();
         std::size_t count = 1;
         for (auto k : n) count *= std::size_t(k);
-        p.resize(first + count);
+        std::vector<Point> at;
         for (std::size_t k = 0; k < count; ++k) {
             Point x;
             std::size_t rest = k;
@@ -116,12 +117,18 @@ public:
                 x[c] = box.lo[c] + (double(rest % m) + 0.5) * spacing;
                 rest /= m;
             }
-            p.put(position, first + k, x);
+            if constexpr (requires { system_.boundary().covers(x); })
+                if (system_.boundary().covers(x)) continue;
+            at.push_back(x);
+        }
+        p.resize(first + at.size());
+        for (std::size_t k = 0; k < at.size(); ++k) {
+            p.put(position, first + k, at[k]);
             begin(p, first + k, box, start);
         }
         if constexpr (Engine::species_count == 2) wet_markers(box, start);
         prepare();
-        return count;
+        return at.size();
     }
     template <int Other, class... Start>
     std::size_t fill(Box<Other> const&, double, Start...)
@@ -193,9 +200,10 @@ public:
         if (!prepared_) prepare();
         const auto wall = std::chrono::steady_clock::now();
         const std::clock_t cpu = std::clock();
-        const Extremes e = system_.template extremes<needs_acceleration>();
+        Extremes e = system_.template extremes<needs_acceleration>();
         look(e);
         choose_dt(o, e);
+        if constexpr (Engine::M::moves) e |= move_markers(dt_);
         if (system_.stale(e, I::ahead_velocity * dt_, I::ahead_acceleration * dt_ * dt_)) {
             if constexpr (W::on)
                 stop_if_outside(system_.mobile(), system_.boundary(), physics().interaction.range(), step_, time_);
@@ -314,14 +322,46 @@ private:
         if constexpr (Engine::species_count == 2) {
             auto& p = system_.template species<1>().particles;
             std::vector<Point> x;
-            system_.boundary().place(physics().interaction.range(), [&](Point const& at) { x.push_back(at); });
+            std::vector<int> of;
+            system_.boundary().place(physics().interaction.range(),
+                                     [&](Point const& at, int k = 0) { x.push_back(at), of.push_back(k); });
             p.resize(x.size());
             for (std::size_t i = 0; i < x.size(); ++i) {
                 p.put(position, i, x[i]);
+                if constexpr (Engine::M::moves) p.put(rest_position, i, x[i]), p.put(part, i, of[i]);
+                else if constexpr (requires { system_.boundary().sliding(x[i]); })
+                    if constexpr (B::has_velocity) p.put(velocity, i, system_.boundary().sliding(x[i]));
                 begin(p, i, Box<dim>{x[i], x[i]}, nullptr);
             }
             set_mass(system_.boundary().spacing());
+            if constexpr (Engine::M::moves) move_markers(0);
         }
+    }
+    /// Puts the walls where their laws say that they are now. Their acceleration is the mean over the step to come, so that
+    /// the integrator, which moves them within the step, ends with the velocity of the law.
+    Extremes move_markers(double dt)
+    {
+        if constexpr (Engine::M::moves) {
+            auto& boundary = system_.boundary();
+            boundary.move_to(time_);
+            const auto now = boundary.motions(time_), then = boundary.motions(time_ + dt);
+            auto& p = system_.template species<1>().particles;
+            const std::size_t n = p.size();
+            system_.backend().for_each((n + Engine::task - 1) / Engine::task, [&](std::size_t k) {
+                for (std::size_t i = k * Engine::task, end = std::min(n, (k + 1) * Engine::task); i < end; ++i) {
+                    const Point x0 = p.at(rest_position, i);
+                    const auto which = std::size_t(p.at(part, i));
+                    const Point v = now[which].velocity_of(x0);
+                    Point x = now[which].position_of(x0) - p.at(position, i);
+                    p.put(position, i, p.at(position, i) + nearest_image(x, system_.grid()));
+                    p.put(velocity, i, v + boundary.sliding(x0));
+                    p.put(acceleration, i,
+                          dt > 0 ? (1 / dt) * (then[which].velocity_of(x0) - v) : now[which].acceleration_of(x0));
+                }
+            });
+            return system_.wall_extremes();
+        }
+        else return {};
     }
     /// Markers whose density is a state start at that of the fluid before them.
     template <class Start>
@@ -420,7 +460,8 @@ private:
         TimeStep t;
         if (o.dt > 0) t = {o.dt, "fixed"};
         else {
-            t = time_step(stiffness_, o.cfl, e.speed, std::max(e.acceleration, std::sqrt(g_.squaredNorm())));
+            t = time_step(stiffness_, o.cfl, std::max(e.speed, e.wall_speed),
+                          std::max(e.acceleration, std::sqrt(g_.squaredNorm())));
             if (step_ > 0) t.bound(1.1 * free_dt_, "growth");
             if (step_ == 0) first_dt_ = t.dt;
             if (t.dt < 1e-3 * first_dt_) stop_dt(t.dt);
@@ -466,7 +507,7 @@ private:
     /// Lists that do not last one step would miss pairs in silence.
     void stop_if_outrun(Extremes e) const
     {
-        e.moved = 0, e.least_move = {}, e.most_move = {};
+        e.moved = e.wall_moved = 0, e.least_move = {}, e.most_move = {};
         if (!system_.stale(e, I::ahead_velocity * dt_, I::ahead_acceleration * dt_ * dt_)) return;
         StopFacts f;
         f.step = step_, f.time = time_, f.quantity = "the way that a pair may close in within one step, over the range";
@@ -504,6 +545,8 @@ private:
     [[nodiscard]] bool has_source() const
     {
         if constexpr (driven_by_user) return true;
+        if constexpr (requires { B::has_velocity; })
+            if constexpr (B::has_velocity) return true; // a wall that moves does work
         const auto edges = system_.boundary().template edges<dim>();
         for (int c = 0; c < dim; ++c)
             if (g_[c] != 0 && edges.periodic(c)) return true;

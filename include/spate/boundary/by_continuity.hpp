@@ -15,7 +15,7 @@ namespace spate {
 struct ByContinuity {
     static constexpr const char* name = "by_continuity";
     static constexpr Fields fields{density, density_rate, pressure};
-    template <class P>
+    template <bool = false, class P>
     [[nodiscard]] std::tuple<> terms(P const&) const
     {
         return {};

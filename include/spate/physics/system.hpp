@@ -27,6 +27,10 @@ struct Extremes {
         return {far, far, far};
     }
     double least_density = std::numeric_limits<double>::infinity(), most_density = 0; ///< [kg/m^3]
+
+    /// max |x - x_build| [m] and max |v| [m/s] of markers that move
+    double wall_moved = 0, wall_speed = 0;
+
     double poison = 0; ///< 0, or NaN as soon as an evolving field or an acceleration is not finite
 
     void operator|=(Extremes const& b)
@@ -42,6 +46,8 @@ struct Extremes {
         }
         least_density = std::min(least_density, b.least_density);
         most_density = std::max(most_density, b.most_density);
+        wall_moved = std::max(wall_moved, b.wall_moved);
+        wall_speed = std::max(wall_speed, b.wall_speed);
         poison += b.poison;
     }
 };
@@ -108,6 +114,7 @@ public:
     auto& terms() { return terms_; }
     auto const& terms() const { return terms_; }
     B const& boundary() const { return boundary_; }
+    B& boundary() { return boundary_; }
     Workers const& backend() const { return backend_; }
     Grid<dim> const& grid() const { return grid_; }
     Neighbours const& neighbours() const { return neighbours_; }
@@ -129,7 +136,7 @@ public:
         });
         each_species([&](auto s) {
             auto& x = species<s()>();
-            if (s() != 0 && sorted_markers_) return;
+            if (s() != 0 && sorted_markers_ && !M::moves) return;
             x.bins.sort(x.particles, grid_);
             if constexpr (ParticlesOf<s()>::template has<BuildPosition>)
                 for (int c = 0; c < dim; ++c)
@@ -172,7 +179,8 @@ public:
             diagonal2 += side * side;
         }
         const double pair = std::sqrt(diagonal2) + 2 * t2 * e.acceleration;
-        const double marker = M::markers ? e.moved + t * e.speed + t2 * e.acceleration : 0;
+        double marker = M::markers ? e.moved + t * e.speed + t2 * e.acceleration : 0;
+        if constexpr (M::moves) marker += e.wall_moved + t * e.wall_speed;
         return pair > marker ? pair : marker;
     }
     void forget_lists() { have_lists_ = false, sorted_markers_ = false, kick_rates_ = false; }
@@ -285,6 +293,25 @@ public:
             const Extremes mine = extremes_of<with_acceleration>(k * task, std::min(n, (k + 1) * task));
             const std::lock_guard hold(lock);
             e |= mine;
+        });
+        if constexpr (M::moves) e |= wall_extremes();
+        return e;
+    }
+    /// Of markers that move: how far since the lists were built, and how fast.
+    [[nodiscard]] Extremes wall_extremes() const
+    {
+        Extremes e;
+        std::mutex lock;
+        auto const& w = species<1>().particles;
+        backend_.for_each((w.size() + task - 1) / task, [&](std::size_t k) {
+            double moved2 = 0, speed2 = 0;
+            for (std::size_t i = k * task, end = std::min(w.size(), (k + 1) * task); i < end; ++i) {
+                moved2 = std::max(moved2, (w.at(position, i) - w.at(build_position, i)).squaredNorm());
+                speed2 = std::max(speed2, w.at(velocity, i).squaredNorm());
+            }
+            const std::lock_guard hold(lock);
+            e.wall_moved = std::max(e.wall_moved, std::sqrt(moved2));
+            e.wall_speed = std::max(e.wall_speed, std::sqrt(speed2));
         });
         return e;
     }
@@ -675,10 +702,15 @@ private:
     void wrap()
     {
         if (!grid_.any_periodic()) return;
-        auto& x = mobile().column(position);
+        wrap(mobile());
+        if constexpr (M::moves) wrap(species<1>().particles);
+    }
+    void wrap(auto& particles)
+    {
+        auto& x = particles.column(position);
         for (int c = 0; c < dim; ++c)
             if (grid_.periodic(c))
-                for (std::size_t i = 0; i < mobile().size(); ++i) {
+                for (std::size_t i = 0; i < particles.size(); ++i) {
                     auto& value = x[std::size_t(c)][i];
                     value = T(grid_.wrapped(c, double(value)));
                     if (!(double(value) < grid_.box().hi[c])) value = T(grid_.box().lo[c]); // rounded up in T
