@@ -117,7 +117,7 @@ public:
     Bce(Box<Dim> box, double spacing, State how, Options... options)
         : box_(box), spacing_(spacing), how_(how), edges_(Edge::wall), parts_(detail::parts_of<Dim>(options...))
     {
-        auto edge = [&]<class O>(O const& o) {
+        [[maybe_unused]] auto edge = [&]<class O>(O const& o) {
             if constexpr (detail::EdgeOption<O, Dim>) apply(edges_, o);
         };
         (edge(options), ...);
