@@ -206,16 +206,13 @@ public:
     template <int>
     [[nodiscard]] double beyond(Vec<Dim, double> const& x) const
     {
-        double far = -std::numeric_limits<double>::infinity();
-        const Vec<Dim, double> at = moves ? rigid_[0].rest_of(x) : x;
-        for (int c = 0; c < Dim; ++c) {
-            if (edges_.at(c, false) == Edge::wall) far = std::max(far, box_.lo[c] - at[c]);
-            if (edges_.at(c, true) == Edge::wall) far = std::max(far, at[c] - box_.hi[c]);
-        }
-        each_obstacle([&](int part, auto const& o) {
-            far = std::max(far, -o.solid.distance(moves ? rigid_[std::size_t(part)].rest_of(x) : x));
-        });
-        return far;
+        return std::max(beyond_faces(x), into_solids(x));
+    }
+    /// Whether x has passed the first layer of markers: half a spacing beyond a face; on the lattice, that of a solid lies up
+    /// to a spacing deep.
+    [[nodiscard]] bool passed(Vec<Dim, double> const& x) const
+    {
+        return beyond_faces(x) > spacing_ / 2 || into_solids(x) > spacing_;
     }
 
     // ---- walls that move
@@ -247,6 +244,24 @@ public:
 
 private:
     [[nodiscard]] double tie() const { return 1e-9 * spacing_; }
+    [[nodiscard]] double beyond_faces(Vec<Dim, double> const& x) const
+    {
+        double far = -std::numeric_limits<double>::infinity();
+        const Vec<Dim, double> at = moves ? rigid_[0].rest_of(x) : x;
+        for (int c = 0; c < Dim; ++c) {
+            if (edges_.at(c, false) == Edge::wall) far = std::max(far, box_.lo[c] - at[c]);
+            if (edges_.at(c, true) == Edge::wall) far = std::max(far, at[c] - box_.hi[c]);
+        }
+        return far;
+    }
+    [[nodiscard]] double into_solids(Vec<Dim, double> const& x) const
+    {
+        double deep = -std::numeric_limits<double>::infinity();
+        each_obstacle([&](int part, auto const& o) {
+            deep = std::max(deep, -o.solid.distance(moves ? rigid_[std::size_t(part)].rest_of(x) : x));
+        });
+        return deep;
+    }
     template <int c>
     void place_axis(int layers, Vec<Dim, double>& x, bool inside, auto const& f) const
     {
