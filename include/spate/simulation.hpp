@@ -13,6 +13,7 @@
 #include "spate/physics/system.hpp"
 #include "spate/physics/time_step.hpp"
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <numbers>
@@ -214,6 +215,7 @@ public:
             if (step_ % watch_.energy_every == 0) look_at_energy();
         system_.template phase<When::before_step>(step_, [] {}); // the lists are those of this step
         integrator_.step(system_, dt_);
+        if constexpr (reflects) reflect();
         system_.template phase<When::after_step>(step_, [&] { make_lists_current(); });
         time_ += dt_;
         ++step_;
@@ -277,6 +279,9 @@ private:
                  (decltype((adds<X>() | writes<X>()) & Fields{acceleration, velocity})::size > 0)));
     }(static_cast<typename P::Terms const*>(nullptr));
     static constexpr bool needs_acceleration = has_equation_of_state<P> || I::ahead_acceleration > 0;
+
+    /// Walls that reflect what has gone through them.
+    static constexpr bool reflects = requires(B const b, Point x, Point v) { b.reflect(x, v, 0.0); };
 
     static P const& checked(P const& physics, B const& boundary, Workers const& backend, Neighbours const& n,
                             W const& watch)
@@ -373,6 +378,41 @@ private:
             for (std::size_t i = 0; i < p.size(); ++i)
                 if (near.contains(p.at(position, i))) begin(p, i, box, start);
         }
+    }
+    void reflect()
+    {
+        auto& p = system_.mobile();
+        const std::size_t n = p.size();
+        std::atomic<bool> any = false, lost = false;
+        system_.backend().for_each((n + Engine::task - 1) / Engine::task, [&](std::size_t k) {
+            for (std::size_t i = k * Engine::task, end = std::min(n, (k + 1) * Engine::task); i < end; ++i) {
+                Point x = p.at(position, i), v = p.at(velocity, i);
+                const auto bounce = system_.boundary().reflect(x, v, radius_of(p, i));
+                if (bounce == B::Bounce::none) continue;
+                p.put(position, i, x), p.put(velocity, i, v);
+                any = true;
+                if (bounce == B::Bounce::too_many) lost = true;
+            }
+        });
+        if (any) system_.forget_kick_rates();
+        if (lost) stop_lost();
+    }
+    static double radius_of([[maybe_unused]] auto const& p, [[maybe_unused]] std::size_t i)
+    {
+        if constexpr (std::remove_cvref_t<decltype(p)>::template has<Radius>) return p.at(radius, i);
+        else return 0;
+    }
+    [[noreturn]] void stop_lost() const
+    {
+        auto const& p = system_.mobile();
+        const std::size_t i = detail::first_by_id(p, [&](std::size_t k) {
+            Point x = p.at(position, k), v = p.at(velocity, k);
+            return system_.boundary().reflect(x, v, radius_of(p, k)) != B::Bounce::none;
+        });
+        StopFacts f = i < p.size() ? detail::facts_of(p, i) : StopFacts{};
+        f.step = step_, f.time = time_, f.quantity = "the bounces off two walls in one step", f.limit = B::bounces;
+        f.value = std::numeric_limits<double>::infinity();
+        throw OutOfDomain(f);
     }
     void check_particles() const
     {

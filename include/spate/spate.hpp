@@ -20,6 +20,7 @@
 #include "spate/boundary/solid/half_space.hpp"
 #include "spate/boundary/solid/sphere.hpp"
 #include "spate/boundary/solid/wedge.hpp"
+#include "spate/boundary/walls.hpp"
 #include "spate/concepts.hpp"
 #include "spate/integrator/forward_euler.hpp"
 #include "spate/integrator/leapfrog.hpp"

@@ -187,6 +187,7 @@ public:
     /// Whether the kick rates are those of the present state: an integrator may begin with them.
     [[nodiscard]] bool kick_rates_current() const { return kick_rates_; }
     void keep_kick_rates() { kick_rates_ = true; }
+    void forget_kick_rates() { kick_rates_ = false; }
     [[nodiscard]] std::int64_t rebuilds() const { return rebuilds_; }
     /// Directed pairs within range when the lists were built.
     [[nodiscard]] std::int64_t pairs() const
