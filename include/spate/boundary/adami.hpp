@@ -16,7 +16,7 @@ inline constexpr struct PressureSum : ScalarField { static constexpr std::string
 // clang-format on
 
 /// Extrapolation (Adami, Hu & Adams 2012, eq. 27, numerator): sum_f (p_f + rho_f (g - a_w) . x_wf) W_wf.
-/// docs/models/boundaries.md (2).
+/// docs/models/boundaries.md (3).
 /// \tparam Moves  the markers carry an acceleration a_w; else it is 0
 template <int Dim, bool Moves = false>
 struct AdamiSums {
@@ -44,7 +44,7 @@ struct AdamiSums {
 };
 
 /// p_w = sum / sum_f W_wf, rho_w from it by the equation of state (eqs. 27, 28); a marker that sees next to nothing is at
-/// rest pressure. docs/models/boundaries.md (3).
+/// rest pressure. docs/models/boundaries.md (4).
 template <class E>
 struct AdamiState {
     static constexpr Fields reads{pressure_sum, kernel_sum};

@@ -38,7 +38,7 @@ struct MirrorSums {
     void operator()(auto& i, auto const& j, auto const& ij) const { i[velocity_sum] += ij.w * j[velocity]; }
 };
 /// 2 v_w - sum_f v_f W_wf / sum_f W_wf (Adami, Hu & Adams 2012, eqs. 22, 23); that of the wall where it sees nothing.
-/// docs/models/boundaries.md (5).
+/// docs/models/boundaries.md (6).
 struct Mirror {
     static constexpr Fields reads{velocity_sum, kernel_sum, velocity};
     static constexpr Fields writes{mirrored_velocity};
