@@ -480,7 +480,7 @@ private:
         }
         catch (IndexOverflow const& e) {
             StopFacts f = e.facts();
-            f.step = step_, f.time = time_, f.species = 0; // markers stand still
+            f.step = step_, f.time = time_, f.species = Engine::M::moves ? -1 : 0; // at rest, markers cannot be it
             throw IndexOverflow(f);
         }
     }
