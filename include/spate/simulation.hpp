@@ -7,11 +7,13 @@
 #include "spate/backend/serial.hpp"
 #include "spate/boundary/boundary.hpp"
 #include "spate/integrator/integrator.hpp"
+#include "spate/measure/nearest_image.hpp"
 #include "spate/measure/watch.hpp"
 #include "spate/physics/sph/stability.hpp"
 #include "spate/physics/system.hpp"
 #include "spate/physics/time_step.hpp"
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <numbers>
@@ -79,7 +81,7 @@ public:
     }
 
     // ---- particles
-    /// Fills a box with particles at the centres of cubes of edge `spacing` [m]; `start` is `hydrostatic` or is called
+    /// Fills a box with particles at the centres of cubes of edge `spacing` [m], but where a solid is; `start` is `hydrostatic` or is called
     /// with (particles, i) for each new one. Returns how many.
     template <class Start = std::nullptr_t>
     [[gnu::cold]] std::size_t fill(Box<dim> const& box, double spacing, Start start = nullptr)
@@ -108,7 +110,7 @@ public:
         const std::size_t first = p.size();
         std::size_t count = 1;
         for (auto k : n) count *= std::size_t(k);
-        p.resize(first + count);
+        std::vector<Point> at;
         for (std::size_t k = 0; k < count; ++k) {
             Point x;
             std::size_t rest = k;
@@ -117,12 +119,18 @@ public:
                 x[c] = box.lo[c] + (double(rest % m) + 0.5) * spacing;
                 rest /= m;
             }
-            p.put(position, first + k, x);
+            if constexpr (requires { system_.boundary().covers(x); })
+                if (system_.boundary().covers(x)) continue;
+            at.push_back(x);
+        }
+        p.resize(first + at.size());
+        for (std::size_t k = 0; k < at.size(); ++k) {
+            p.put(position, first + k, at[k]);
             begin(p, first + k, box, start);
         }
         if constexpr (Engine::species_count == 2) wet_markers(box, start);
         prepare();
-        return count;
+        return at.size();
     }
     template <int Other, class... Start>
     std::size_t fill(Box<Other> const&, double, Start...)
@@ -197,15 +205,16 @@ public:
         if (!prepared_) prepare();
         const auto wall = std::chrono::steady_clock::now();
         const std::clock_t cpu = std::clock();
-        const Extremes e = system_.template extremes<needs_acceleration>();
+        Extremes e = system_.template extremes<needs_acceleration>();
         look(e);
         choose_dt(o, e);
+        if constexpr (Engine::M::moves) e |= move_markers(dt_);
         if (stale(e)) {
             if constexpr (W::on)
                 stop_if_outside(system_.mobile(), system_.boundary(), physics().interaction.range(), step_, time_);
             rebuild();
             Extremes unmoved = e;
-            unmoved.moved = 0, unmoved.least_move = {}, unmoved.most_move = {};
+            unmoved.moved = unmoved.wall_moved = 0, unmoved.least_move = {}, unmoved.most_move = {};
             if (stale(unmoved)) rebuild(true);
             if (stale(unmoved)) stop_outrun(unmoved);
         }
@@ -213,6 +222,7 @@ public:
             if (step_ % watch_.energy_every == 0) look_at_energy();
         system_.template phase<When::before_step>(step_, [] {}); // the lists are those of this step
         integrator_.step(system_, dt_);
+        if constexpr (reflects) reflect();
         system_.template phase<When::after_step>(step_, [&] { make_lists_current(); });
         time_ += dt_;
         ++step_;
@@ -277,6 +287,9 @@ private:
     }(static_cast<typename P::Terms const*>(nullptr));
     static constexpr bool needs_acceleration = has_equation_of_state<P> || I::ahead_acceleration > 0;
 
+    /// Walls that reflect what has gone through them.
+    static constexpr bool reflects = requires(B const b, Point x, Point v) { b.reflect(x, v, 0.0); };
+
     [[gnu::cold]] static P const& checked(P const& physics, B const& boundary, Workers const& backend,
                                           Neighbours const& n, W const& watch)
     {
@@ -334,14 +347,46 @@ private:
             complete(system_.boundary().spacing());
             auto& p = system_.template species<1>().particles;
             std::vector<Point> x;
-            system_.boundary().place(physics().interaction.range(), [&](Point const& at) { x.push_back(at); });
+            std::vector<int> of;
+            system_.boundary().place(physics().interaction.range(),
+                                     [&](Point const& at, int k = 0) { x.push_back(at), of.push_back(k); });
             p.resize(x.size());
             for (std::size_t i = 0; i < x.size(); ++i) {
                 p.put(position, i, x[i]);
+                if constexpr (Engine::M::moves) p.put(rest_position, i, x[i]), p.put(part, i, of[i]);
+                else if constexpr (requires { system_.boundary().sliding(x[i]); })
+                    if constexpr (B::has_velocity) p.put(velocity, i, system_.boundary().sliding(x[i]));
                 begin(p, i, Box<dim>{x[i], x[i]}, nullptr);
             }
             set_mass(system_.boundary().spacing());
+            if constexpr (Engine::M::moves) move_markers(0);
         }
+    }
+    /// Puts the walls where their laws say that they are now. Their acceleration is the mean over the step to come, so that
+    /// the integrator, which moves them within the step, ends with the velocity of the law.
+    Extremes move_markers(double dt)
+    {
+        if constexpr (Engine::M::moves) {
+            auto& boundary = system_.boundary();
+            boundary.move_to(time_);
+            const auto now = boundary.motions(time_), then = boundary.motions(time_ + dt);
+            auto& p = system_.template species<1>().particles;
+            const std::size_t n = p.size();
+            system_.backend().for_each((n + Engine::task - 1) / Engine::task, [&](std::size_t k) {
+                for (std::size_t i = k * Engine::task, end = std::min(n, (k + 1) * Engine::task); i < end; ++i) {
+                    const Point x0 = p.at(rest_position, i);
+                    const auto which = std::size_t(p.at(part, i));
+                    const Point v = now[which].velocity_of(x0);
+                    Point x = now[which].position_of(x0) - p.at(position, i);
+                    p.put(position, i, p.at(position, i) + nearest_image(x, system_.grid()));
+                    p.put(velocity, i, v + boundary.sliding(x0));
+                    p.put(acceleration, i,
+                          dt > 0 ? (1 / dt) * (then[which].velocity_of(x0) - v) : now[which].acceleration_of(x0));
+                }
+            });
+            return system_.wall_extremes();
+        }
+        else return {};
     }
     /// Markers whose density is a state start at that of the fluid before them.
     template <class Start>
@@ -353,6 +398,41 @@ private:
             for (std::size_t i = 0; i < p.size(); ++i)
                 if (near.contains(p.at(position, i))) begin(p, i, box, start);
         }
+    }
+    void reflect()
+    {
+        auto& p = system_.mobile();
+        const std::size_t n = p.size();
+        std::atomic<bool> any = false, lost = false;
+        system_.backend().for_each((n + Engine::task - 1) / Engine::task, [&](std::size_t k) {
+            for (std::size_t i = k * Engine::task, end = std::min(n, (k + 1) * Engine::task); i < end; ++i) {
+                Point x = p.at(position, i), v = p.at(velocity, i);
+                const auto bounce = system_.boundary().reflect(x, v, radius_of(p, i));
+                if (bounce == B::Bounce::none) continue;
+                p.put(position, i, x), p.put(velocity, i, v);
+                any = true;
+                if (bounce == B::Bounce::too_many) lost = true;
+            }
+        });
+        if (any) system_.forget_kick_rates();
+        if (lost) stop_lost();
+    }
+    static double radius_of([[maybe_unused]] auto const& p, [[maybe_unused]] std::size_t i)
+    {
+        if constexpr (std::remove_cvref_t<decltype(p)>::template has<Radius>) return p.at(radius, i);
+        else return 0;
+    }
+    [[noreturn, gnu::cold]] void stop_lost() const
+    {
+        auto const& p = system_.mobile();
+        const std::size_t i = detail::first_by_id(p, [&](std::size_t k) {
+            Point x = p.at(position, k), v = p.at(velocity, k);
+            return system_.boundary().reflect(x, v, radius_of(p, k)) != B::Bounce::none;
+        });
+        StopFacts f = i < p.size() ? detail::facts_of(p, i) : StopFacts{};
+        f.step = step_, f.time = time_, f.quantity = "the bounces off two walls in one step", f.limit = B::bounces;
+        f.value = std::numeric_limits<double>::infinity();
+        throw OutOfDomain(f);
     }
     [[gnu::cold]] void check_particles() const
     {
@@ -424,7 +504,7 @@ private:
     }
     [[noreturn, gnu::cold]] void stop_index(StopFacts f) const
     {
-        f.step = step_, f.time = time_, f.species = 0; // markers stand still
+        f.step = step_, f.time = time_, f.species = Engine::M::moves ? -1 : 0; // at rest, markers cannot be it
         throw IndexOverflow(f);
     }
     [[gnu::cold]] void begin_run(RunOptions const& o)
@@ -443,7 +523,8 @@ private:
         TimeStep t;
         if (o.dt > 0) t = {o.dt, "fixed"};
         else {
-            t = time_step(stiffness_, o.cfl, e.speed, std::max(e.acceleration, std::sqrt(g_.squaredNorm())));
+            t = time_step(stiffness_, o.cfl, std::max(e.speed, e.wall_speed),
+                          std::max(e.acceleration, std::sqrt(g_.squaredNorm())));
             if (step_ > 0) t.bound(1.1 * free_dt_, "growth");
             if (step_ == 0) first_dt_ = t.dt;
             if (t.dt < 1e-3 * first_dt_) stop_dt(t.dt);
@@ -530,6 +611,8 @@ private:
     [[nodiscard]] bool has_source() const
     {
         if constexpr (driven_by_user) return true;
+        if constexpr (requires { B::has_velocity; })
+            if constexpr (B::has_velocity) return true; // a wall that moves does work
         const auto edges = system_.boundary().template edges<dim>();
         for (int c = 0; c < dim; ++c)
             if (g_[c] != 0 && edges.periodic(c)) return true;

@@ -16,25 +16,35 @@ inline constexpr struct PressureSum : ScalarField { static constexpr std::string
 // clang-format on
 
 /// Extrapolation (Adami, Hu & Adams 2012, eq. 27, numerator): sum_f (p_f + rho_f (g - a_w) . x_wf) W_wf.
-/// docs/models/boundaries.md (2).
-template <int Dim>
+/// docs/models/boundaries.md (3).
+/// \tparam Moves  the markers carry an acceleration a_w; else it is 0
+template <int Dim, bool Moves = false>
 struct AdamiSums {
+    static constexpr auto reads_i = []() {
+        if constexpr (Moves) return Fields{acceleration};
+        else return Fields<>{};
+    }();
     static constexpr Fields reads_j{pressure, density};
     static constexpr Fields adds{pressure_sum, kernel_sum};
     static constexpr Between between{Role::marker, Role::mobile};
-    Vec<Dim, double> g; ///< gravity less the wall's acceleration [m/s^2]
+    Vec<Dim, double> g; ///< gravity [m/s^2]
 
     void operator()(auto& i, auto const& j, auto const& ij) const
     {
-        auto gx = g[0] * ij.x[0];
-        for (int c = 1; c < Dim; ++c) gx = gx + g[c] * ij.x[c];
+        auto along = [&](int c) __attribute__((always_inline))
+        {
+            if constexpr (Moves) return (g[c] - i[acceleration][c]) * ij.x[c];
+            else return g[c] * ij.x[c];
+        };
+        auto gx = along(0);
+        for (int c = 1; c < Dim; ++c) gx = gx + along(c);
         i[pressure_sum] += (j[pressure] + j[density] * gx) * ij.w;
         i[kernel_sum] += ij.w;
     }
 };
 
 /// p_w = sum / sum_f W_wf, rho_w from it by the equation of state (eqs. 27, 28); a marker that sees next to nothing is at
-/// rest pressure. docs/models/boundaries.md (3).
+/// rest pressure. docs/models/boundaries.md (4).
 template <class E>
 struct AdamiState {
     static constexpr Fields reads{pressure_sum, kernel_sum};
@@ -73,7 +83,8 @@ struct Adami {
     static constexpr Fields fields{density, pressure};
     bool suction = true; ///< false: wall pressure is cut at 0, so that a wall can push but not pull
 
-    template <class P>
+    /// \tparam Moves  whether the markers carry an acceleration
+    template <bool Moves = false, class P>
     [[nodiscard]] auto terms(P const& physics) const
     {
         static_assert(detail::any_gives_density<typename P::Terms>,
@@ -83,7 +94,7 @@ struct Adami {
         auto const& kernel = physics.interaction.kernel;
         using E = std::remove_cvref_t<decltype(eos)>;
         const double none = -std::numeric_limits<double>::max();
-        return std::tuple{AdamiSums<dim>{gravity_of(physics)},
+        return std::tuple{AdamiSums<dim, Moves>{gravity_of(physics)},
                           AdamiState<E>{eos, 1e-6 * kernel.sigma() * kernel.f(0.0), suction ? none : 0.0}};
     }
 };

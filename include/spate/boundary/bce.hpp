@@ -4,7 +4,10 @@
 /// a species of their own that others see and that sees others only.
 #pragma once
 
+#include "spate/boundary/lid.hpp"
+#include "spate/boundary/obstacle.hpp"
 #include "spate/boundary/periodic.hpp"
+#include "spate/boundary/slip.hpp"
 #include "spate/core/box.hpp"
 #include "spate/core/fields.hpp"
 
@@ -13,21 +16,111 @@
 
 namespace spate {
 
-/// A box lined with markers: `Bce tank(Box<3>{...}, dx, Adami{}, open(top))`; faces may be open, axes periodic.
-/// Layers lie at 1/2, 3/2, ... spacings outside the faces, as many as the range needs.
-/// \tparam State  how the markers get density and pressure: ByContinuity or Adami
-template <int Dim, class State>
+namespace detail {
+template <class O, int Dim>
+concept EdgeOption = requires(Edges<Dim> e, O const o)
+{
+    apply(e, o);
+};
+template <class O>
+inline constexpr bool is_lid = false;
+template <int Dim>
+inline constexpr bool is_lid<Lid<Dim>> = true;
+template <class O>
+inline constexpr bool is_moving = false;
+template <class M>
+inline constexpr bool is_moving<Moving<M>> = true;
+template <class O>
+inline constexpr bool is_obstacle = false;
+template <class S, class M>
+inline constexpr bool is_obstacle<Obstacle<S, M>> = true;
+template <class O>
+inline constexpr bool has_law = is_moving<O>;
+template <class S, class M>
+inline constexpr bool has_law<Obstacle<S, M>> = !std::same_as<M, Still>;
+template <class O, int Dim>
+inline constexpr bool fits = true;
+template <int Other, int Dim>
+inline constexpr bool fits<Lid<Other>, Dim> = Other == Dim;
+template <class M, int Dim>
+inline constexpr bool fits<Moving<M>, Dim> = Motion<M, Dim>;
+template <class S, class M, int Dim>
+inline constexpr bool fits<Obstacle<S, M>, Dim> = Solid<S, Dim> && (std::same_as<M, Still> || Motion<M, Dim>);
+
+/// The options that are parts of the wall, not edges.
+template <int Dim, class... O>
+auto parts_of(O const&... o)
+{
+    return std::tuple_cat([](auto const& x) {
+        if constexpr (EdgeOption<std::remove_cvref_t<decltype(x)>, Dim>) return std::tuple<>{};
+        else return std::tuple{x};
+    }(o)...);
+}
+template <int Dim, class... O>
+using PartsOf = decltype(parts_of<Dim>(std::declval<O const&>()...));
+
+/// What a list of parts says, as constants.
+template <int Dim, class Parts>
+struct Wall;
+template <int Dim, class... O>
+struct Wall<Dim, std::tuple<O...>> {
+    static_assert(((std::same_as<O, NoSlip> || std::same_as<O, FreeSlip> || is_lid<O> || is_moving<O> ||
+                    is_obstacle<O>)&&...),
+                  "spate: Bce takes open, periodic, no_slip, free_slip, lid, moving and obstacle as options");
+    static_assert((fits<O, Dim> && ...),
+                  "spate: a lid, a solid or a law of motion has another number of dimensions than the box of the Bce");
+    static constexpr bool no_slip = (std::same_as<O, NoSlip> || ...), free_slip = (std::same_as<O, FreeSlip> || ...);
+    static_assert(!(no_slip && free_slip), "spate: walls are no_slip or free_slip; leave one of them out");
+    static_assert((int(is_moving<O>) + ... + 0) <= 1, "spate: the walls move by one law; leave one of them out");
+    static constexpr bool slides = (is_lid<O> || ...), moves = (has_law<O> || ...);
+    static_assert(!(slides && free_slip),
+                  "spate: a lid drives nothing where walls are free_slip; take no_slip, or no lid");
+    static constexpr int obstacles = (int(is_obstacle<O>) + ... + 0);
+    using Slip = std::conditional_t<no_slip, NoSlip, std::conditional_t<free_slip, FreeSlip, void>>;
+};
+template <bool Keep, class S>
+constexpr auto only_if(S set)
+{
+    if constexpr (Keep) return set;
+    else return Fields<>{};
+}
+} // namespace detail
+
+/// A box lined with markers, and solids of markers in it: `Bce tank(Box<3>{...}, dx, Adami{}, open(top))`. Faces may be
+/// open, axes periodic. Layers lie at 1/2, 3/2, ... spacings outside the faces, as many as the range needs; the markers of
+/// a solid are the points of the same lattice in it, as deep as the range.
+/// \tparam State  how the markers get density and pressure: ByContinuity, Adami or Extrapolated
+/// \tparam Parts  options other than open and periodic: no_slip, free_slip, lid, moving, obstacle
+template <int Dim, class State, class Parts = std::tuple<>>
 class Bce {
+    using Wall = detail::Wall<Dim, Parts>;
+    static constexpr bool mirrors = []() {
+        if constexpr (requires { State::mirrors; }) return bool(State::mirrors);
+        else return false;
+    }();
+    static_assert(
+        !(mirrors && (Wall::no_slip || Wall::free_slip)),
+        "spate: Extrapolated mirrors the velocity in all terms; leave no_slip and free_slip out, or take Adami");
+    using Along = Tangential<typename Wall::Slip, mirrors>;
+
 public:
     static constexpr bool markers = true;
-    static constexpr Fields uniform{mass, velocity}; ///< of the markers: no array; the wall stands still
-    static constexpr auto state = State::fields;
+    static constexpr bool moves = Wall::moves;                  ///< markers follow a law
+    static constexpr bool has_velocity = moves || Wall::slides; ///< they have velocities of their own
+    /// Of the markers: no array.
+    static constexpr auto uniform = Fields{mass} | detail::only_if<!has_velocity>(Fields{velocity});
+    static constexpr auto state = State::fields | detail::only_if<has_velocity>(Fields{velocity}) |
+                                  detail::only_if<moves>(Fields{acceleration, rest_position, part, build_position});
+    static constexpr auto given = detail::only_if<moves>(Fields{acceleration});
 
     template <class... Options>
     [[gnu::cold]] Bce(Box<Dim> box, double spacing, State how, Options... options)
-        : box_(box), spacing_(spacing), how_(how), edges_(Edge::wall)
+        : box_(box), spacing_(spacing), how_(how), edges_(Edge::wall), parts_(detail::parts_of<Dim>(options...))
     {
-        (apply(edges_, options), ...);
+        [[maybe_unused]] auto edge = [&]<class O>(O const& o) {
+            if constexpr (detail::EdgeOption<O, Dim>) apply(edges_, o);
+        };
+        (edge(options), ...);
         require_positive("Bce.spacing", spacing, "m");
         for (int c = 0; c < Dim; ++c) {
             const std::string length = along_axis("Bce.box length", c);
@@ -38,11 +131,32 @@ public:
                     "a whole number of spacings; the nearest is " + text(std::round(n) * spacing) +
                         " m, or take spacing " + text(box.size()[c] / std::round(n)) + " m");
         }
+        each_lid([&](auto const& lid) {
+            const int axis = axis_of<Dim>(lid.face);
+            if (edges_.at(axis, lid.face.upper) != Edge::wall)
+                throw BadInput("the face of a lid", "open or periodic", "a wall");
+            require(lid.velocity[axis] == 0, along_axis("lid velocity", axis), lid.velocity[axis],
+                    "0 [m/s]: a lid slides in its own plane");
+        });
+    }
+    /// The terms of the physics as far as they do not see walls in a way of their own.
+    template <class Terms>
+    [[nodiscard]] auto own(Terms const& terms) const
+    {
+        return Along::own(terms);
     }
     template <class P>
     [[nodiscard]] auto terms(P const& physics) const
     {
-        return how_.terms(physics);
+        static_assert(!Wall::no_slip || detail::any_viscous<typename P::Terms>,
+                      "spate: no_slip acts in viscous terms, and the model has none; add LaminarViscosity{.mu}");
+        auto made = how_.template terms<moves>(physics);
+        if constexpr (Along::mirrors) {
+            auto const& kernel = physics.interaction.kernel;
+            auto seen = Along::at_wall(physics.terms, made, 1e-6 * kernel.sigma() * kernel.f(0.0));
+            return std::tuple_cat(std::move(made), std::move(seen));
+        }
+        else return made;
     }
     template <int>
     [[nodiscard]] Edges<Dim> const& edges() const
@@ -59,25 +173,95 @@ public:
     [[nodiscard]] double thickness(double range) const { return layers(range) * spacing_; }
     void check(double reach) const { Periodic<Dim>::check_periodic(box_, edges_, reach); }
 
-    /// f(x) for each marker of walls that cover `range`.
+    /// f(x) or f(x, part) for each marker, at rest, of walls that cover `range`.
     void place(double range, auto const& f) const
     {
+        auto give = [&](Vec<Dim, double> const& x, int part) {
+            if constexpr (requires { f(x, part); }) f(x, part);
+            else f(x);
+        };
         Vec<Dim, double> x{};
-        place_axis<Dim - 1>(layers(range), x, true, f);
+        place_axis<Dim - 1>(layers(range), x, true, [&](bool in) {
+            if (!in) return give(x, 0);
+            int of = 0; // the first solid that holds the point
+            each_obstacle([&](int part, auto const& o) {
+                if (of > 0) return;
+                const double d = o.solid.distance(x);
+                if (d > tie()) return;
+                of = part;
+                if (d > -thickness(range)) give(x, part);
+            });
+        });
     }
-    /// The largest distance of x beyond a wall face [m]; 0 or less: inside.
+    /// Whether a solid covers x: no place for a particle. A point of the lattice on a surface belongs to the solid.
+    [[nodiscard]] bool covers(Vec<Dim, double> const& x) const
+    {
+        bool is = false;
+        each_obstacle([&](int part, auto const& o) {
+            is = is || o.solid.distance(rigid_[std::size_t(part)].rest_of(x)) <= tie();
+        });
+        return is;
+    }
+    /// The largest distance of x beyond a wall face or into a solid [m]; 0 or less: inside.
     template <int>
     [[nodiscard]] double beyond(Vec<Dim, double> const& x) const
     {
-        double far = -std::numeric_limits<double>::infinity();
-        for (int c = 0; c < Dim; ++c) {
-            if (edges_.at(c, false) == Edge::wall) far = std::max(far, box_.lo[c] - x[c]);
-            if (edges_.at(c, true) == Edge::wall) far = std::max(far, x[c] - box_.hi[c]);
-        }
-        return far;
+        return std::max(beyond_faces(x), into_solids(x));
+    }
+    /// Whether x has passed the first layer of markers: half a spacing beyond a face; on the lattice, that of a solid lies up
+    /// to a spacing deep.
+    [[nodiscard]] bool passed(Vec<Dim, double> const& x) const
+    {
+        return beyond_faces(x) > spacing_ / 2 || into_solids(x) > spacing_;
+    }
+
+    // ---- walls that move
+    using Motions = std::array<Rigid<Dim>, std::size_t(1 + Wall::obstacles)>; ///< by part
+    /// The motion of each part at a time.
+    [[nodiscard]] Motions motions(double t) const
+    {
+        Motions m{};
+        std::apply([&](auto const&... o) { (lining_law(o, m[0], t), ...); }, parts_);
+        each_obstacle([&](int part, auto const& o) {
+            auto& mine = m[std::size_t(part)];
+            if constexpr (requires { o.law(t); }) mine = o.law(t);
+            else mine = m[0];
+        });
+        return m;
+    }
+    /// From now on the walls are where they are at time t.
+    void move_to(double t) { rigid_ = motions(t); }
+    /// The velocity of a marker within the plane of its face.
+    [[nodiscard]] Vec<Dim, double> sliding(Vec<Dim, double> const& x0) const
+    {
+        Vec<Dim, double> v{};
+        each_lid([&](auto const& lid) {
+            const int c = axis_of<Dim>(lid.face);
+            if (lid.face.upper ? x0[c] > box_.hi[c] : x0[c] < box_.lo[c]) v += lid.velocity;
+        });
+        return v;
     }
 
 private:
+    [[nodiscard]] double tie() const { return 1e-9 * spacing_; }
+    [[nodiscard]] double beyond_faces(Vec<Dim, double> const& x) const
+    {
+        double far = -std::numeric_limits<double>::infinity();
+        const Vec<Dim, double> at = moves ? rigid_[0].rest_of(x) : x;
+        for (int c = 0; c < Dim; ++c) {
+            if (edges_.at(c, false) == Edge::wall) far = std::max(far, box_.lo[c] - at[c]);
+            if (edges_.at(c, true) == Edge::wall) far = std::max(far, at[c] - box_.hi[c]);
+        }
+        return far;
+    }
+    [[nodiscard]] double into_solids(Vec<Dim, double> const& x) const
+    {
+        double deep = -std::numeric_limits<double>::infinity();
+        each_obstacle([&](int part, auto const& o) {
+            deep = std::max(deep, -o.solid.distance(moves ? rigid_[std::size_t(part)].rest_of(x) : x));
+        });
+        return deep;
+    }
     template <int c>
     [[gnu::cold]] void place_axis(int layers, Vec<Dim, double>& x, bool inside, auto const& f) const
     {
@@ -88,16 +272,39 @@ private:
             x[c] = box_.lo[c] + (k + 0.5) * spacing_;
             const bool in = inside && k >= 0 && k < n;
             if constexpr (c > 0) place_axis<c - 1>(layers, x, in, f);
-            else if (!in) f(x);
+            else f(in);
         }
+    }
+    template <class O>
+    static void lining_law([[maybe_unused]] O const& o, [[maybe_unused]] Rigid<Dim>& m, [[maybe_unused]] double t)
+    {
+        if constexpr (detail::is_moving<O>) m = o.law(t);
+    }
+    /// f(part, obstacle).
+    void each_obstacle(auto const& f) const
+    {
+        [[maybe_unused]] int part = 0;
+        auto one = [&]<class O>(O const& o) {
+            if constexpr (detail::is_obstacle<O>) f(++part, o);
+        };
+        std::apply([&](auto const&... o) { (one(o), ...); }, parts_);
+    }
+    void each_lid(auto const& f) const
+    {
+        auto one = [&]<class O>(O const& o) {
+            if constexpr (detail::is_lid<O>) f(o);
+        };
+        std::apply([&](auto const&... o) { (one(o), ...); }, parts_);
     }
 
     Box<Dim> box_;
     double spacing_;
     State how_;
     Edges<Dim> edges_;
+    [[no_unique_address]] Parts parts_;
+    Motions rigid_{};
 };
 template <int Dim, class State, class... Options>
-Bce(Box<Dim>, double, State, Options...) -> Bce<Dim, State>;
+Bce(Box<Dim>, double, State, Options...) -> Bce<Dim, State, detail::PartsOf<Dim, Options...>>;
 
 } // namespace spate

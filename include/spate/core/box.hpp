@@ -6,7 +6,10 @@
 #include "spate/core/errors.hpp"
 #include "spate/core/vec.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 namespace spate {
 
@@ -21,6 +24,17 @@ struct Box {
         for (int c = 0; c < Dim; ++c)
             if (!(x[c] >= lo[c] && x[c] <= hi[c])) return false;
         return true;
+    }
+    /// To the surface [m], negative within.
+    [[nodiscard]] double distance(Vec<Dim, double> const& x) const
+    {
+        Vec<Dim, double> out{};
+        double inside = -std::numeric_limits<double>::max();
+        for (int c = 0; c < Dim; ++c) {
+            const double d = std::max(lo[c] - x[c], x[c] - hi[c]);
+            out[c] = std::max(d, 0.0), inside = std::max(inside, d);
+        }
+        return inside > 0 ? std::sqrt(out.squaredNorm()) : inside;
     }
     [[nodiscard]] Box grown(double by) const
     {
@@ -47,6 +61,16 @@ inline constexpr Face left{0, false}, right{0, true}, front{-2, false}, back{-2,
     top{-1, true};
 inline constexpr int x_axis = 0, y_axis = 1, z_axis = 2;
 
+/// The axis of a face in a space.
+template <int Dim>
+int axis_of(Face f)
+{
+    if (f.axis == -2 && Dim != 3) throw BadInput("face", "front or back", "left, right, bottom or top below 3D");
+    const int axis = f.axis == -2 ? 1 : f.axis == -1 ? Dim - 1 : f.axis;
+    if (axis >= Dim) throw BadInput("face", "axis " + std::to_string(axis), "an axis of the space");
+    return axis;
+}
+
 /// What ends space at a face.
 enum class Edge { open, wall, periodic };
 
@@ -57,13 +81,7 @@ struct Edges {
 
     explicit Edges(Edge all) { face.fill(all); }
     [[nodiscard]] Edge at(int axis, bool upper) const { return face[std::size_t(2 * axis + upper)]; }
-    [[gnu::cold]] void set(Face f, Edge e)
-    {
-        if (f.axis == -2 && Dim != 3) throw BadInput("face", "front or back", "left, right, bottom or top below 3D");
-        const int axis = f.axis == -2 ? 1 : f.axis == -1 ? Dim - 1 : f.axis;
-        if (axis >= Dim) throw BadInput("face", "axis " + std::to_string(axis), "an axis of the space");
-        face[std::size_t(2 * axis + f.upper)] = e;
-    }
+    [[gnu::cold]] void set(Face f, Edge e) { face[std::size_t(2 * axis_of<Dim>(f) + f.upper)] = e; }
     void set_axis(int axis, Edge e)
     {
         set({axis, false}, e);

@@ -9,7 +9,8 @@
 
 namespace spate {
 
-/// The number of mobile particles beyond a wall face by more than half a spacing, where the first layer of markers is.
+/// The number of mobile particles beyond a wall face by more than half a spacing, where the first layer of markers is; a
+/// boundary with solids says itself who has `passed` them.
 struct Leaks {
     double spacing; ///< of the particles [m]
     std::string name = "leaks";
@@ -19,8 +20,12 @@ struct Leaks {
         auto const& p = scene.particles();
         constexpr int dim = std::remove_cvref_t<decltype(p)>::dim;
         std::size_t n = 0;
-        for (std::size_t i = 0; i < p.size(); ++i)
-            if (scene.system().boundary().template beyond<dim>(p.at(position, i)) > spacing / 2) ++n;
+        auto const& boundary = scene.system().boundary();
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            const auto x = p.at(position, i);
+            if constexpr (requires { boundary.passed(x); }) n += boundary.passed(x);
+            else n += boundary.template beyond<dim>(x) > spacing / 2;
+        }
         return double(n);
     }
 };

@@ -47,7 +47,9 @@ constexpr auto only_given(Fields<F...>)
 
 /// \tparam P  the physics    \tparam B  the boundary
 /// A boundary without markers says `static constexpr bool markers = false`; one with markers names their `uniform`
-/// fields, the `state` fields that they carry beside those that others read, and `terms(physics)`.
+/// fields, the `state` fields that they carry beside those that others read, and `terms(physics)`. It may show the
+/// terms of the physics other than they are, `own(terms)`; name `moves`: its markers follow a law; and name `given`
+/// fields of the markers that it sets itself, and no term of the physics.
 template <class P, class B>
 struct Model {
     static constexpr int dim = P::dim;
@@ -56,10 +58,21 @@ struct Model {
 
     static auto terms_of(P const& physics, B const& boundary)
     {
-        if constexpr (markers) return std::tuple_cat(physics.terms, boundary.terms(physics));
+        if constexpr (requires { boundary.own(physics.terms); })
+            return std::tuple_cat(boundary.own(physics.terms), boundary.terms(physics));
+        else if constexpr (markers) return std::tuple_cat(physics.terms, boundary.terms(physics));
         else return physics.terms;
     }
     using Terms = decltype(terms_of(std::declval<P>(), std::declval<B>()));
+    /// Markers follow a law: their positions and velocities evolve.
+    static constexpr bool moves = []() {
+        if constexpr (requires { B::moves; }) return bool(B::moves);
+        else return false;
+    }();
+    static constexpr auto given_by_boundary = []() {
+        if constexpr (requires { B::given; }) return B::given;
+        else return Fields<>{};
+    }();
     static constexpr int own_terms = int(std::tuple_size_v<typename P::Terms>);
     static constexpr int terms = int(std::tuple_size_v<Terms>);
     static constexpr int species = markers ? 2 : 1;
@@ -137,8 +150,9 @@ private:
     {
         return []<class... T>(std::tuple<T...> const*) {
             int k = 0;
-            Mask m = 0;
-            ((m |= k++ < own_terms ? Mask(0) : mask(writes<T>() | adds<T>())), ...);
+            Mask m = mask(given_by_boundary);
+            ((m |= k++ < own_terms || between<T>().target == Role::mobile ? Mask(0) : mask(writes<T>() | adds<T>())),
+             ...);
             return m;
         }(static_cast<Terms const*>(nullptr));
     }
@@ -179,8 +193,8 @@ private:
         }(static_cast<Terms const*>(nullptr));
         p.species[0] = {mask(mobile), mask(P::uniform), mask(detail::only_given(mobile | P::uniform)), false};
         if constexpr (species == 2)
-            p.species[1] = {mask(marker), mask(marker_uniform()), mask(detail::only_given(marker | marker_uniform())),
-                            true};
+            p.species[1] = {mask(marker), mask(marker_uniform()),
+                            mask(detail::only_given(marker | marker_uniform()) | (marker & given_by_boundary)), true};
         p.interaction = mask(Interaction::reads);
         return p;
     }
@@ -198,7 +212,8 @@ public:
     template <int s>
     static constexpr auto evolving()
     {
-        return spate::evolving(stored<s>());
+        if constexpr (s == 1 && !moves) return spate::evolving(stored<s>()) - Fields{position};
+        else return spate::evolving(stored<s>());
     }
     /// What a record of species s as a source holds.
     template <int s>

@@ -29,6 +29,10 @@ struct Extremes {
         return {far, far, far};
     }
     double least_density = std::numeric_limits<double>::infinity(), most_density = 0; ///< [kg/m^3]
+
+    /// max |x - x_build| [m] and max |v| [m/s] of markers that move
+    double wall_moved = 0, wall_speed = 0;
+
     double poison = 0; ///< 0, or NaN as soon as an evolving field or an acceleration is not finite
 
     void operator|=(Extremes const& b)
@@ -44,6 +48,8 @@ struct Extremes {
         }
         least_density = std::min(least_density, b.least_density);
         most_density = std::max(most_density, b.most_density);
+        wall_moved = std::max(wall_moved, b.wall_moved);
+        wall_speed = std::max(wall_speed, b.wall_speed);
         poison += b.poison;
     }
 };
@@ -116,6 +122,7 @@ public:
     auto& terms() { return terms_; }
     auto const& terms() const { return terms_; }
     B const& boundary() const { return boundary_; }
+    B& boundary() { return boundary_; }
     Workers const& backend() const { return backend_; }
     Grid<dim> const& grid() const { return grid_; }
     Neighbours const& neighbours() const { return neighbours_; }
@@ -144,7 +151,7 @@ public:
         });
         each_species([&](auto s) {
             auto& x = species<s()>();
-            if (s() != 0 && sorted_markers_) return;
+            if (s() != 0 && sorted_markers_ && !M::moves) return;
             x.bins.sort(x.particles, grid_);
             if constexpr (ParticlesOf<s()>::template has<BuildPosition>)
                 for (int c = 0; c < dim; ++c)
@@ -193,13 +200,15 @@ public:
             diagonal2 += side * side;
         }
         const double pair = std::sqrt(diagonal2) + 2 * t2 * e.acceleration;
-        const double marker = M::markers ? e.moved + t * e.speed + t2 * e.acceleration : 0;
+        double marker = M::markers ? e.moved + t * e.speed + t2 * e.acceleration : 0;
+        if constexpr (M::moves) marker += e.wall_moved + t * e.wall_speed;
         return pair > marker ? pair : marker;
     }
     void forget_lists() { have_lists_ = false, sorted_markers_ = false, kick_rates_ = false; }
     /// Whether the kick rates are those of the present state: an integrator may begin with them.
     [[nodiscard]] bool kick_rates_current() const { return kick_rates_; }
     void keep_kick_rates() { kick_rates_ = true; }
+    void forget_kick_rates() { kick_rates_ = false; }
     [[nodiscard]] std::int64_t rebuilds() const { return rebuilds_; }
     /// Directed pairs within range when the lists were built.
     [[nodiscard]] std::int64_t pairs() const
@@ -306,6 +315,25 @@ public:
             const Extremes mine = extremes_of<with_acceleration>(k * task, std::min(n, (k + 1) * task));
             const std::lock_guard hold(lock);
             e |= mine;
+        });
+        if constexpr (M::moves) e |= wall_extremes();
+        return e;
+    }
+    /// Of markers that move: how far since the lists were built, and how fast.
+    [[nodiscard]] Extremes wall_extremes() const
+    {
+        Extremes e;
+        std::mutex lock;
+        auto const& w = species<1>().particles;
+        backend_.for_each((w.size() + task - 1) / task, [&](std::size_t k) {
+            double moved2 = 0, speed2 = 0;
+            for (std::size_t i = k * task, end = std::min(w.size(), (k + 1) * task); i < end; ++i) {
+                moved2 = std::max(moved2, (w.at(position, i) - w.at(build_position, i)).squaredNorm());
+                speed2 = std::max(speed2, w.at(velocity, i).squaredNorm());
+            }
+            const std::lock_guard hold(lock);
+            e.wall_moved = std::max(e.wall_moved, std::sqrt(moved2));
+            e.wall_speed = std::max(e.wall_speed, std::sqrt(speed2));
         });
         return e;
     }
@@ -729,9 +757,8 @@ private:
                 for (auto const g : skins_[1].near(p)) by_marker_[std::size_t(g)] = 1;
         }
         if (wide) return;
-        auto const& v = mobile().column(velocity);
-        const auto spread = spreads([&](auto& box, std::size_t i) {
-            for (int c = 0; c < dim; ++c) box.add(c, double(v[std::size_t(c)][i]));
+        const auto spread = spreads([](auto& box, auto const& p, std::size_t i) {
+            for (int c = 0; c < dim; ++c) box.add(c, double(p.column(velocity)[std::size_t(c)][i]));
         });
         std::array<std::vector<double>, std::size_t(species_count)> speed;
         double fastest = 0;
@@ -745,40 +772,50 @@ private:
         });
         each_species([&](auto s) { skins_[s()].use(neighbours_.closed_in(), speed[s()], fastest); });
     }
-    /// The box of vectors in each patch of the mobile particles; add(box, i) adds those of particle i.
-    [[nodiscard]] std::vector<Spread<dim>> spreads(auto const& add) const
+    /// Boxes of vectors: in each patch of the mobile particles, and of all markers.
+    struct Spreads {
+        std::vector<Spread<dim>> mobile;
+        Spread<dim> markers;
+    };
+    /// add(box, particles, i) adds the vectors of a particle.
+    [[nodiscard]] Spreads spreads(auto const& add) const
     {
-        std::vector<Spread<dim>> of(skins_[0].patches());
+        Spreads of{std::vector<Spread<dim>>(skins_[0].patches()), {}};
         constexpr std::size_t some = 512; // patches in a task
-        backend_.for_each((of.size() + some - 1) / some, [&](std::size_t task) {
-            for (std::size_t p = task * some, end = std::min(of.size(), p + some); p < end; ++p) {
+        backend_.for_each((of.mobile.size() + some - 1) / some, [&](std::size_t task) {
+            for (std::size_t p = task * some, end = std::min(of.mobile.size(), p + some); p < end; ++p) {
                 const auto here = Skins<dim>::particles_of(species<0>().bins, p, grid_);
-                for (auto i = here.first; i < here.last; ++i) add(of[p], std::size_t(i));
+                for (auto i = here.first; i < here.last; ++i) add(of.mobile[p], mobile(), std::size_t(i));
             }
         });
+        if constexpr (M::moves) {
+            auto const& markers = species<1>().particles;
+            for (std::size_t i = 0; i < markers.size(); ++i) add(of.markers, markers, i);
+        }
+        else
+            for (int c = 0; c < dim; ++c) of.markers.add(c, 0); // they stand still
         return of;
     }
-    /// By how much the vectors of pairs with a target in a patch may differ; markers stand still.
+    /// By how much the vectors of pairs with a target in a patch may differ.
     template <int s>
-    [[nodiscard]] double differ(std::vector<Spread<dim>> const& spread, std::size_t patch) const
+    [[nodiscard]] double differ(Spreads const& spread, std::size_t patch) const
     {
         Spread<dim> all;
-        for (auto const g : skins_[s].near(patch)) all |= spread[std::size_t(g)];
+        for (auto const g : skins_[s].near(patch)) all |= spread.mobile[std::size_t(g)];
         if constexpr (M::markers)
-            if (s == 1 ? !skins_[s].near(patch).empty() : by_marker_[patch] != 0)
-                for (int c = 0; c < dim; ++c) all.add(c, 0);
+            if (s == 1 ? !skins_[s].near(patch).empty() : by_marker_[patch] != 0) all |= spread.markers;
         return all.diagonal();
     }
     /// Whether a pair of any patch may have closed in by more than its skin at positions up to x + v t and `more` [m].
     [[nodiscard]] bool outrun(double t, double more) const
     {
-        auto const &x = mobile().column(position), &v = mobile().column(velocity),
-                   &start = mobile().column(build_position);
-        const auto spread = spreads([&](auto& box, std::size_t i) {
+        const auto spread = spreads([t](auto& box, auto const& p, std::size_t i) {
             for (int c = 0; c < dim; ++c) {
                 const auto k = std::size_t(c);
-                const double moved = double(x[k][i]) - double(start[k][i]);
-                box.add(c, moved), box.add(c, moved + t * double(v[k][i]));
+                const double moved = double(p.column(position)[k][i]) - double(p.column(build_position)[k][i]);
+                box.add(c, moved), box.add(c, moved + t * double(p.column(velocity)[k][i]));
+                if constexpr (std::remove_cvref_t<decltype(p)>::template has<TransportVelocity>)
+                    box.add(c, moved + t * double(p.column(transport_velocity)[k][i]));
             }
         });
         std::atomic<bool> any = false;
@@ -796,10 +833,15 @@ private:
     void wrap()
     {
         if (!grid_.any_periodic()) return;
-        auto& x = mobile().column(position);
+        wrap(mobile());
+        if constexpr (M::moves) wrap(species<1>().particles);
+    }
+    void wrap(auto& particles)
+    {
+        auto& x = particles.column(position);
         for (int c = 0; c < dim; ++c)
             if (grid_.periodic(c))
-                for (std::size_t i = 0; i < mobile().size(); ++i) {
+                for (std::size_t i = 0; i < particles.size(); ++i) {
                     auto& value = x[std::size_t(c)][i];
                     value = T(grid_.wrapped(c, double(value)));
                     if (!(double(value) < grid_.box().hi[c])) value = T(grid_.box().lo[c]); // rounded up in T

@@ -17,6 +17,9 @@ struct ArtificialViscosity {
     static constexpr Fields reads{velocity, density};
     static constexpr Fields reads_j{mass};
     static constexpr Fields adds{acceleration};
+    /// Walls of no_slip and free_slip mean it.
+    static constexpr bool viscous = true;
+
     double alpha;           ///< [-], Monaghan 1992: 0.01 to 0.1
     double c0 = from_model; ///< speed of sound [m/s]
 

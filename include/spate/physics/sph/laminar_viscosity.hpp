@@ -15,6 +15,9 @@ struct LaminarViscosity {
     static constexpr Fields reads{velocity, density};
     static constexpr Fields reads_j{mass};
     static constexpr Fields adds{acceleration};
+    /// Walls of no_slip and free_slip mean it.
+    static constexpr bool viscous = true;
+
     double mu;         ///< dynamic viscosity [Pa s]
     double eps = 0.01; ///< keeps the quotient finite at r = 0 [-]; costs 1 to 2 % of mu; 0 is allowed off coincidence
 

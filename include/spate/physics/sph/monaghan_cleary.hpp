@@ -16,6 +16,7 @@ struct MonaghanCleary {
     static constexpr Fields reads{velocity, density};
     static constexpr Fields reads_j{mass};
     static constexpr Fields adds{acceleration};
+    static constexpr bool viscous = true;
     double mu; ///< dynamic viscosity [Pa s]
 
     void check() const { require_non_negative("MonaghanCleary.mu", mu, "Pa s"); }

@@ -17,6 +17,7 @@ struct SpeciesViscosity {
     static constexpr Fields reads{velocity, density};
     static constexpr Fields reads_j{mass};
     static constexpr Fields adds{acceleration};
+    static constexpr bool viscous = true;
     static constexpr Between between{Role::mobile, Source};
     double mu;         ///< dynamic viscosity [Pa s]
     double eps = 0.01; ///< keeps the quotient finite at r = 0 [-]

@@ -16,6 +16,7 @@ struct VariableViscosity {
     static constexpr Fields reads{velocity, density, viscosity};
     static constexpr Fields reads_j{mass};
     static constexpr Fields adds{acceleration};
+    static constexpr bool viscous = true;
     double largest;    ///< the field is nowhere above, for the time step [Pa s]
     double eps = 0.01; ///< keeps the quotient finite at r = 0 [-]
 
