@@ -21,7 +21,7 @@ template <class I>
 class Sound : public testing::Test {
 protected:
     /// omega of a fit against that of the oscillator under the integrator's own map.
-    static void expect(Oscillation const& o, double omega)
+    static void expect(wave::Oscillation const& o, double omega)
     {
         const double z = omega * dt;
         double theta = 2 * std::asin(z / 2), growth = 0; // leapfrog
