@@ -92,11 +92,13 @@ template <class System>
 void build_lists(System const& s, Lists<System::dim>& lists)
 {
     auto const& x = s.template species<0>();
-    using P = std::remove_cvref_t<decltype(x.particles)>;
+    using Of = Lists<System::dim>;
+    using T = typename System::T;
     constexpr int record = std::remove_cvref_t<decltype(x.packed)>::L::stride;
-    Lists<System::dim>::build(x.particles, x.bins, s.grid(), width<typename System::V>, s.neighbours().window,
-                              s.physics().interaction.range(), s.template skins<0>(), 0, s.backend(),
-                              typename Lists<System::dim>::template From<P>{lists, x.particles, x.bins, record, true});
+    const auto places = Of::template Places<T>::of(x.particles);
+    const std::array from{typename Of::template From<T>{lists, places, x.bins, record, true}};
+    Of::build(places, x.bins, s.grid(), width<typename System::V>, s.neighbours().window,
+              s.physics().interaction.range(), s.template skins<0>(), 0, s.backend(), from);
 }
 
 /// Entries of all lists, sentinels too.

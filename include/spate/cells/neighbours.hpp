@@ -44,27 +44,42 @@ struct CellLists {
 template <int Dim>
 class Lists {
 public:
+    /// Where the particles of a species are: all that is asked of it, so that lists are compiled once.
+    template <class T>
+    struct Places {
+        std::array<T const*, std::size_t(Dim)> x;
+        std::size_t size;
+
+        template <class P>
+        static Places of(P const& p)
+        {
+            Places places{{}, p.size()};
+            for (std::size_t c = 0; c < std::size_t(Dim); ++c) places.x[c] = p.column(position)[c].data();
+            return places;
+        }
+    };
     /// One source of the lists of a target: where they go, and whom they list.
-    template <class Q>
+    template <class T>
     struct From {
         Lists& lists;
-        Q const& particles;
+        Places<T> places;
         Binning<Dim> const& bins;
         int record; ///< length of a record of the source
         bool same;  ///< target and source are one species: a particle is not its own neighbour
     };
-    /// Builds the lists of a target over all its sources together: their blocks hold the same targets.
+    /// Builds the lists of a target over all its sources (at most two) together: their blocks hold the same targets.
     /// \param W  targets in a block    \param window  see Neighbours
     /// \param range  [m]    \param beyond  reach beyond range and skin, as a fraction of the range
-    template <class P, class Workers, class... Q>
-    static void build(P const& target, Binning<Dim> const& at, Grid<Dim> const& grid, int W, int window, double range,
-                      Skins<Dim> const& skins, double beyond, Workers const& backend, From<Q>... from)
+    template <class T, class Workers>
+    static void build(Places<T> const& target, Binning<Dim> const& at, Grid<Dim> const& grid, int W, int window,
+                      double range, Skins<Dim> const& skins, double beyond, Workers const& backend,
+                      std::type_identity_t<std::span<const From<T>>> sources)
     {
-        (from.lists.begin_build(at.cells(), from.record, from.particles.size()), ...);
+        for (auto const& from : sources) from.lists.begin_build(at.cells(), from.record, from.places.size);
         backend.for_each(at.cells(), [&](std::size_t k) {
-            build_cell(k, target, at, grid, W, window, range, skins, beyond, from...);
+            build_cell<T>(k, target, at, grid, W, window, range, skins, beyond, sources);
         });
-        (from.lists.end_build(), ...);
+        for (auto const& from : sources) from.lists.end_build();
     }
     [[nodiscard]] CellLists const& of_cell(std::size_t k) const { return cell_[k]; }
     /// The number of the source's record at a place that a list holds.
@@ -142,16 +157,18 @@ private:
         for (auto const& c : cell_) pairs_ += c.pairs, slots_ += std::int64_t(c.index.size());
     }
 
-    template <class P, class... Q>
-    static void build_cell(std::size_t k, P const& target, Binning<Dim> const& at, Grid<Dim> const& grid, int W,
-                           int window, double range, Skins<Dim> const& skins, double beyond, From<Q> const&... from)
+    static constexpr std::size_t most_sources = 2;
+
+    template <class T>
+    static void build_cell(std::size_t k, Places<T> const& target, Binning<Dim> const& at, Grid<Dim> const& grid, int W,
+                           int window, double range, Skins<Dim> const& skins, double beyond,
+                           std::span<const From<T>> from)
     {
-        constexpr std::size_t sources = sizeof...(Q);
-        static thread_local std::array<Window, sources> open;
+        static thread_local std::array<Window, most_sources> open;
         static thread_local std::vector<std::int32_t> order;
-        std::array<CellLists*, sources> lists{&from.lists.cell_[k]...};
-        const std::array<std::int32_t, sources> record{from.record...};
-        const std::array<std::int32_t, sources> sentinel{std::int32_t(from.particles.size()) * from.record...};
+        const std::size_t sources = from.size();
+        std::array<CellLists*, most_sources> lists{};
+        for (std::size_t q = 0; q < sources; ++q) lists[q] = &from[q].lists.cell_[k];
         const int nx = grid.bins_of_cell(0), rows = grid.bins_of_cell() / nx;
         const Index<Dim> cell = at.cell(k);
         window = (std::max(window, W) + W - 1) / W * W;
@@ -168,7 +185,8 @@ private:
         auto close_window = [&] {
             like_lengths_together(order, open[0].length, count, W);
             for (std::size_t q = 0; q < sources; ++q)
-                deal(open[q], order, first, count, W, record[q], sentinel[q], *lists[q]);
+                deal(open[q], order, first, count, W, from[q].record,
+                     std::int32_t(from[q].places.size) * from[q].record, *lists[q]);
             first += count;
             count = 0;
         };
@@ -179,29 +197,24 @@ private:
             corner[0] = cell[0] * nx;
             if constexpr (Dim > 1) corner[1] = cell[1] * grid.bins_of_cell(1) + r % grid.bins_of_cell(1);
             if constexpr (Dim > 2) corner[2] = cell[2] * grid.bins_of_cell(2) + r / grid.bins_of_cell(1);
-            auto each_source = [&](auto&& f) {
-                std::size_t q = 0;
-                (f(q++, from), ...);
-            };
-            each_source([&](std::size_t q, auto const& source) {
-                gather(open[q].near, corner, source.particles, source.bins, grid);
+            for (std::size_t q = 0; q < sources; ++q) {
+                gather(open[q].near, corner, from[q].places, from[q].bins, grid);
                 open[q].make_room(std::size_t(window), std::size_t(count));
-            });
+            }
             const std::size_t patch = k * Skins<Dim>::patches_of_cell(grid) + std::size_t(r * grid.cell());
             for (int b = 0, i = b0; b < grid.cell(); ++b) {
                 const Ranges ranges(range * (1 + skins.of(patch + std::size_t(b)) + beyond), range, grid);
                 for (const std::int32_t last = at.first(k, r * nx + (b + 1) * grid.finer()); i < last; ++i) {
                     double x[std::size_t(Dim)];
                     for (int c = 0; c < Dim; ++c)
-                        x[c] = double(target.column(position)[std::size_t(c)][std::size_t(i)]) -
-                               grid.corner(c, corner[std::size_t(c)]);
-                    each_source([&](std::size_t q, auto const& source) {
+                        x[c] = double(target.x[std::size_t(c)][i]) - grid.corner(c, corner[std::size_t(c)]);
+                    for (std::size_t q = 0; q < sources; ++q) {
                         auto& w = open[q];
                         w.length[std::size_t(count)] =
                             w.near.count == 0 ? 0
-                                              : select(w.near, x, grid, ranges, source.same ? i : -1,
+                                              : select(w.near, x, grid, ranges, from[q].same ? i : -1,
                                                        w.row.data() + std::size_t(count) * w.stride, lists[q]->pairs);
-                    });
+                    }
                     if (++count == window) close_window();
                 }
             }
@@ -303,8 +316,8 @@ private:
     }
 
     /// Copies the candidates of one row of a cell: rows in the order of the global bins, images in their place.
-    template <class Q>
-    static void gather(Candidates& near, Index<Dim> const& corner, Q const& source, Binning<Dim> const& of,
+    template <class T>
+    static void gather(Candidates& near, Index<Dim> const& corner, Places<T> const& source, Binning<Dim> const& of,
                        Grid<Dim> const& grid)
     {
         const int reach_x = grid.finer(), nx = grid.bins_of_cell(0) + 2 * reach_x;
@@ -369,9 +382,9 @@ private:
         }
         return true;
     }
-    template <class Q>
+    template <class T>
     static void copy(Candidates& near, std::int32_t j0, std::int32_t j1, int code, Index<Dim> const& corner,
-                     Q const& source, Binning<Dim> const& of, Grid<Dim> const& grid)
+                     Places<T> const& source, Binning<Dim> const& of, Grid<Dim> const& grid)
     {
         const std::size_t n = std::size_t(j1 - j0), o = near.count;
         near.count += n;
@@ -381,14 +394,14 @@ private:
         }
         const Vec<Dim, double> shift = shift_of(code, grid);
         for (int c = 0; c < Dim; ++c) {
-            auto const* x = source.column(position)[std::size_t(c)].data() + j0;
+            T const* x = source.x[std::size_t(c)] + j0;
             float* out = near.x[c].data() + o;
             const double origin = grid.corner(c, corner[std::size_t(c)]) - shift[c];
             for (std::size_t s = 0; s < n; ++s) out[s] = float(double(x[s]) - origin);
         }
         for (std::size_t s = 0; s < n; ++s)
             near.number[o + s] =
-                code == 0 ? j0 + std::int32_t(s) : of.record_of(j0 + std::int32_t(s), code, source.size());
+                code == 0 ? j0 + std::int32_t(s) : of.record_of(j0 + std::int32_t(s), code, source.size);
     }
 
     std::vector<CellLists> cell_;

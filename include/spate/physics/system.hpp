@@ -161,10 +161,10 @@ public:
         choose_skins(wide);
         const double range = physics_.interaction.range(), beyond = neighbours_.skin - neighbours_.closed_in();
         each_species([&](auto s) {
-            auto build = [&](auto... from) {
-                if constexpr (sizeof...(from) > 0)
-                    Lists<dim>::build(species<s()>().particles, species<s()>().bins, grid_, width<V>,
-                                      neighbours_.window, range, skins_[s()], beyond, backend_, from...);
+            auto build = [&](auto... sources) {
+                const std::array<typename Lists<dim>::template From<T>, sizeof...(sources)> from{sources...};
+                Lists<dim>::build(places<s()>(), species<s()>().bins, grid_, width<V>, neighbours_.window, range,
+                                  skins_[s()], beyond, backend_, from);
             };
             constexpr bool meets_0 = M::planner.meet(s(), 0), meets_1 = species_count == 2 && M::planner.meet(s(), 1);
             if constexpr (meets_0 && meets_1) build(from<s(), 0>(), from<s(), 1>());
@@ -701,9 +701,13 @@ private:
     auto from()
     {
         auto const& x = species<q>();
-        return typename Lists<dim>::template From<ParticlesOf<q>>{
-            lists_[std::size_t(s * species_count + q)], x.particles, x.bins,
-            Layout<dim, Set<M::template record<q>()>>::stride, s == q};
+        return typename Lists<dim>::template From<T>{lists_[std::size_t(s * species_count + q)], places<q>(), x.bins,
+                                                     Layout<dim, Set<M::template record<q>()>>::stride, s == q};
+    }
+    template <int s>
+    auto places() const
+    {
+        return Lists<dim>::template Places<T>::of(species<s>().particles);
     }
     template <int s, int q, Mask terms>
     auto source()
