@@ -202,11 +202,12 @@ TYPED_TEST(StillWaterOn, HasTheExactPressure)
     tell(this->name("2D, H/dx 50, short"), w);
     this->expect(w, this->gate);
 }
-/// In 3D with walls on all sides. The gate is that of H/dx = 50, and the error of first order in dx.
+/// In 3D with walls on all sides, and a kernel whose gradient is true on its lattice (to 0.06 %; the cubic spline's at 1.2 dx
+/// is too small by 1.8 %). The gate is that of H/dx = 50, and the error of first order in dx.
 TYPED_TEST(StillWaterOn, HasTheExactPressureIn3D)
 {
     constexpr int n = 20;
-    auto s = still<CubicSpline<3>>(n, 1.2, DensityDiffusion{.delta = 0.1}, TypeParam{});
+    auto s = still<WendlandC2<3>>(n, 1.5, DensityDiffusion{.delta = 0.1}, TypeParam{});
     calm(s);
     const Worst w = watch(s, H / n, 1);
     tell(this->name("3D, H/dx 20, short"), w);
@@ -218,7 +219,7 @@ TYPED_TEST_SUITE(LongStillWaterOn, States);
 TYPED_TEST(LongStillWaterOn, HasTheExactPressureIn3D)
 {
     constexpr int n = 50;
-    auto s = still<CubicSpline<3>>(n, 1.2, DensityDiffusion{.delta = 0.1}, TypeParam{});
+    auto s = still<WendlandC2<3>>(n, 1.5, DensityDiffusion{.delta = 0.1}, TypeParam{});
     calm(s);
     const Worst w = watch(s, H / n, 1);
     tell(this->name("3D, H/dx 50, short"), w);
