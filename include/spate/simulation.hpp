@@ -8,6 +8,7 @@
 #include "spate/boundary/boundary.hpp"
 #include "spate/integrator/integrator.hpp"
 #include "spate/measure/nearest_image.hpp"
+#include "spate/measure/wall_force.hpp"
 #include "spate/measure/watch.hpp"
 #include "spate/physics/sph/rest.hpp"
 #include "spate/physics/sph/stability.hpp"
@@ -273,6 +274,32 @@ public:
         for (int c = 0; c < dim; ++c)
             total[c] = system_.sum([&](std::size_t i) { return p.at(mass, i) * p.at(velocity, i)[c]; });
         return total;
+    }
+    /// sum m over the mobile particles [kg].
+    [[nodiscard]] double total_mass() const
+    {
+        auto const& p = system_.mobile();
+        return system_.sum([&](std::size_t i) { return p.at(mass, i); });
+    }
+    /// sum m/rho over the mobile particles [m^dim].
+    [[nodiscard]] double volume() const
+    {
+        auto const& p = system_.mobile();
+        return system_.sum([&](std::size_t i) { return p.at(mass, i) / p.at(density, i); });
+    }
+    /// Of the particles on the walls of markers [N]; derived fields are those of the last evaluation: refresh() before.
+    [[nodiscard]] Point wall_force() requires(Engine::species_count == 2) { return WallForce{}(*this); }
+    /// Whether something does work on the particles: walls that move, a force of the user, or gravity along a periodic axis,
+    /// which has no potential to compare with.
+    [[nodiscard]] bool driven() const
+    {
+        if constexpr (driven_by_user) return true;
+        if constexpr (requires { B::has_velocity; })
+            if constexpr (B::has_velocity) return true; // a wall that moves does work
+        const auto edges = system_.boundary().template edges<dim>();
+        for (int c = 0; c < dim; ++c)
+            if (g_[c] != 0 && edges.periodic(c)) return true;
+        return false;
     }
     [[nodiscard]] std::uint64_t state_hash() const { return system_.state_hash(); }
 
@@ -621,20 +648,9 @@ private:
         if (!system_.stale(system_.extremes(), 0, 0)) look_at_energy(); // a rebuild here would wrap the last state
         stop_if_outside(system_.mobile(), system_.boundary(), physics().interaction.range(), step_, time_);
     }
-    /// A body force along a periodic axis is a source of energy: there is no potential to compare with.
-    [[nodiscard]] bool has_source() const
-    {
-        if constexpr (driven_by_user) return true;
-        if constexpr (requires { B::has_velocity; })
-            if constexpr (B::has_velocity) return true; // a wall that moves does work
-        const auto edges = system_.boundary().template edges<dim>();
-        for (int c = 0; c < dim; ++c)
-            if (g_[c] != 0 && edges.periodic(c)) return true;
-        return false;
-    }
     void look_at_energy()
     {
-        if (has_source()) return;
+        if (driven()) return;
         const Energy e = energy();
         if (report_.energy_reference == 0) {
             report_.start = e;
