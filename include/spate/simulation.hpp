@@ -8,7 +8,9 @@
 #include "spate/boundary/boundary.hpp"
 #include "spate/integrator/integrator.hpp"
 #include "spate/measure/nearest_image.hpp"
+#include "spate/measure/wall_force.hpp"
 #include "spate/measure/watch.hpp"
+#include "spate/physics/sph/rest.hpp"
 #include "spate/physics/sph/stability.hpp"
 #include "spate/physics/system.hpp"
 #include "spate/physics/time_step.hpp"
@@ -40,10 +42,6 @@ struct RunReport {
     Energy start;                ///< at the first step
     std::vector<std::string> warnings;
 };
-
-/// Each fluid particle at rest under the fluid above it, to the top of the filled box.
-inline constexpr struct Hydrostatic {
-} hydrostatic{};
 
 /// How an interaction wants its lists kept, where it says so.
 template <class I>
@@ -81,12 +79,13 @@ public:
     }
 
     // ---- particles
-    /// Fills a box with particles at the centres of cubes of edge `spacing` [m], but where a solid is; `start` is `hydrostatic` or is called
-    /// with (particles, i) for each new one. Returns how many.
+    /// Fills a box with particles at the centres of cubes of edge `spacing` [m], but where a solid is; `start` is
+    /// `hydrostatic`, `settled`, or is called with (particles, i) for each new one. Returns how many.
     template <class Start = std::nullptr_t>
     [[gnu::cold]] std::size_t fill(Box<dim> const& box, double spacing, Start start = nullptr)
     {
         require_positive("spacing", spacing, "m");
+        check_start<Start>();
         Index<dim> n;
         for (int c = 0; c < dim; ++c) {
             const std::string edge = along_axis("box length", c);
@@ -276,6 +275,32 @@ public:
             total[c] = system_.sum([&](std::size_t i) { return p.at(mass, i) * p.at(velocity, i)[c]; });
         return total;
     }
+    /// sum m over the mobile particles [kg].
+    [[nodiscard]] double total_mass() const
+    {
+        auto const& p = system_.mobile();
+        return system_.sum([&](std::size_t i) { return p.at(mass, i); });
+    }
+    /// sum m/rho over the mobile particles [m^dim].
+    [[nodiscard]] double volume() const
+    {
+        auto const& p = system_.mobile();
+        return system_.sum([&](std::size_t i) { return p.at(mass, i) / p.at(density, i); });
+    }
+    /// Of the particles on the walls of markers [N]; derived fields are those of the last evaluation: refresh() before.
+    [[nodiscard]] Point wall_force() requires(Engine::species_count == 2) { return WallForce{}(*this); }
+    /// Whether something does work on the particles: walls that move, a force of the user, or gravity along a periodic axis,
+    /// which has no potential to compare with.
+    [[nodiscard]] bool driven() const
+    {
+        if constexpr (driven_by_user) return true;
+        if constexpr (requires { B::has_velocity; })
+            if constexpr (B::has_velocity) return true; // a wall that moves does work
+        const auto edges = system_.boundary().template edges<dim>();
+        for (int c = 0; c < dim; ++c)
+            if (g_[c] != 0 && edges.periodic(c)) return true;
+        return false;
+    }
     [[nodiscard]] std::uint64_t state_hash() const { return system_.state_hash(); }
 
 private:
@@ -325,19 +350,35 @@ private:
             if constexpr (Engine::species_count == 2) system_.template species<1>().particles.value(mass) = m;
         }
     }
+    template <class Start>
+    static constexpr bool at_rest = std::same_as<Start, Hydrostatic> || std::same_as<Start, Settled>;
+    template <class Start>
+    void check_start() const
+    {
+        if constexpr (at_rest<Start>)
+            static_assert(has_equation_of_state<P>,
+                          "spate: hydrostatic needs an equation of state in the model, and so does settled");
+        if constexpr (std::same_as<Start, Settled>) {
+            int along = 0;
+            for (int c = 0; c < dim; ++c) along += g_[c] != 0;
+            require(along <= 1, "components of Gravity.g for a settled start", along, "0 or 1: along an axis");
+        }
+    }
     template <class Particles, class Start>
     void begin(Particles& p, std::size_t i, [[maybe_unused]] Box<dim> const& box, [[maybe_unused]] Start start)
     {
         if constexpr (has_equation_of_state<P> && Particles::template has<Density>)
             p.put(density, i, equation_of_state(physics()).rho0);
-        if constexpr (std::same_as<Start, Hydrostatic>) {
-            static_assert(has_equation_of_state<P>, "spate: hydrostatic needs an equation of state in the model");
-            double depth = std::numeric_limits<double>::infinity(); // g z below the top of the box, against gravity
+        if constexpr (at_rest<Start>) {
+            constexpr bool wall = !std::same_as<Particles, std::remove_cvref_t<decltype(system_.mobile())>>;
+            const detail::AtRest rest{equation_of_state(physics()), box, g_};
             const Point x = p.at(position, i);
-            double gz = 0;
-            for (int c = 0; c < dim; ++c) gz += g_[c] * (x[c] - (g_[c] < 0 ? box.hi[c] : box.lo[c]));
-            depth = gz;
-            p.put(density, i, equation_of_state(physics()).hydrostatic_density(std::max(0.0, depth)));
+            double rho;
+            if constexpr (std::same_as<Start, Hydrostatic>)
+                rho = rest.eos.hydrostatic_density(std::max(0.0, rest.depth(x)));
+            else if constexpr (wall) rho = rest.eos.hydrostatic_density(std::max(0.0, rest.depth(x) - rest.sunk()));
+            else p.put(position, i, rest.settled_place(x)), rho = rest.density_under(rest.depth(x));
+            p.put(density, i, rho);
         }
         else if constexpr (!std::same_as<Start, std::nullptr_t>) start(p, i);
     }
@@ -392,7 +433,7 @@ private:
     template <class Start>
     [[gnu::cold]] void wet_markers([[maybe_unused]] Box<dim> const& box, [[maybe_unused]] Start start)
     {
-        if constexpr (std::same_as<Start, Hydrostatic>) {
+        if constexpr (at_rest<Start>) {
             auto& p = system_.template species<1>().particles;
             const Box<dim> near = box.grown(physics().interaction.range());
             for (std::size_t i = 0; i < p.size(); ++i)
@@ -607,20 +648,9 @@ private:
         if (!system_.stale(system_.extremes(), 0, 0)) look_at_energy(); // a rebuild here would wrap the last state
         stop_if_outside(system_.mobile(), system_.boundary(), physics().interaction.range(), step_, time_);
     }
-    /// A body force along a periodic axis is a source of energy: there is no potential to compare with.
-    [[nodiscard]] bool has_source() const
-    {
-        if constexpr (driven_by_user) return true;
-        if constexpr (requires { B::has_velocity; })
-            if constexpr (B::has_velocity) return true; // a wall that moves does work
-        const auto edges = system_.boundary().template edges<dim>();
-        for (int c = 0; c < dim; ++c)
-            if (g_[c] != 0 && edges.periodic(c)) return true;
-        return false;
-    }
     void look_at_energy()
     {
-        if (has_source()) return;
+        if (driven()) return;
         const Energy e = energy();
         if (report_.energy_reference == 0) {
             report_.start = e;

@@ -56,10 +56,28 @@ TEST_F(HistoryTest, HasTheStateOfTheSceneInEachRow)
     History history(folder, 0, Front{dx}, WallForce{}, floor);
     tank.run({.steps = 7}, history);
     const Table t = table();
-    const std::vector<std::string> names{"step",         "t",           "dt",          "dt_criterion", "kinetic",
-                                         "potential",    "compressive", "dissipated",  "momentum_x",   "momentum_y",
-                                         "max_speed",    "density_min", "density_max", "front",        "wall_force_x",
-                                         "wall_force_y", "p_floor"};
+    const std::vector<std::string> names{"step",
+                                         "t",
+                                         "dt",
+                                         "dt_criterion",
+                                         "kinetic",
+                                         "potential",
+                                         "compressive",
+                                         "dissipated",
+                                         "momentum_x",
+                                         "momentum_y",
+                                         "volume",
+                                         "gravity_impulse_x",
+                                         "gravity_impulse_y",
+                                         "wall_impulse_x",
+                                         "wall_impulse_y",
+                                         "max_speed",
+                                         "density_min",
+                                         "density_max",
+                                         "front",
+                                         "wall_force_x",
+                                         "wall_force_y",
+                                         "p_floor"};
     EXPECT_EQ(t.names, names);
     ASSERT_EQ(t.rows.size(), 8u); // the start and each step
     EXPECT_EQ(t.at(0, "t"), 0);
@@ -87,6 +105,66 @@ TEST_F(HistoryTest, HasTheStateOfTheSceneInEachRow)
     for (std::size_t k = 0; k < 8; ++k)
         EXPECT_EQ(t.at(k, "dissipated"), t.at(0, "kinetic") + t.at(0, "potential") + t.at(0, "compressive") -
                                              (t.at(k, "kinetic") + t.at(k, "potential") + t.at(k, "compressive")));
+}
+
+/// The largest imbalance of momentum - momentum at the start - impulses in a stirred tank, over 0.02 s in steps of dt.
+double imbalance(std::filesystem::path const& folder, double dt, Table& t)
+{
+    auto tank = small_tank::scene();
+    auto& p = tank.particles();
+    for (std::size_t i = 0; i < p.size(); ++i)
+        p.put(velocity, i, Vec<2, double>{std::sin(9 * p.at(position, i)[1]), std::cos(7 * p.at(position, i)[0])});
+    History history(folder, 0);
+    tank.run({.until = 0.02, .dt = dt}, history);
+    std::ifstream in(folder / "history.csv", std::ios::binary);
+    t = parsed({std::istreambuf_iterator<char>(in), {}});
+    double worst = 0;
+    for (std::size_t k = 0; k < t.rows.size(); ++k)
+        for (std::string c : {"_x", "_y"})
+            worst = std::max(worst, std::abs(t.at(k, "momentum" + c) - t.at(0, "momentum" + c) -
+                                             t.at(k, "gravity_impulse" + c) - t.at(k, "wall_impulse" + c)));
+    return worst;
+}
+// The walls' impulse is by the trapezoidal rule and the run by a midpoint rule: they differ by the second order of dt.
+TEST_F(HistoryTest, BalancesMomentumWithTheImpulsesOfGravityAndWalls)
+{
+    Table t;
+    const double coarse = imbalance(folder, 1 / 8192.0, t), fine = imbalance(folder, 1 / 16384.0, t);
+    const std::size_t last = t.rows.size() - 1;
+    const double weight = 1000 * 0.5 * 0.5 * 9.81; // [N/m]
+    EXPECT_NEAR(t.at(last, "gravity_impulse_y"), -weight * 0.02, 1e-12 * weight);
+    EXPECT_GT(std::abs(t.at(last, "wall_impulse_y")), 0.1 * weight * 0.02);
+    EXPECT_LE(fine, 1e-3 * weight * 0.02);
+    EXPECT_NEAR(std::log2(coarse / fine), 2, 0.5);
+}
+// A floor that shakes does work, and the column says that it is in it.
+TEST_F(HistoryTest, NamesWhatIsDriven)
+{
+    auto heads = [&](auto... options) {
+        auto water = wcsph(CubicSpline<2>{.h = 1.2 * dx}, Tait{.rho0 = 1000, .c0 = 30}, Continuity<2>{},
+                           PressureForce<2>{}, Gravity<2>{{0, -9.81}});
+        Simulation tank(water, RungeKutta2{}, Bce(Box<2>{{0, 0}, {1, 1}}, dx, Adami{}, open(top), options...),
+                        Serial{});
+        tank.fill(Box<2>{{0, 0}, {1, 0.5}}, dx);
+        History history(folder, 0);
+        tank.run({.steps = 1}, history);
+        return table().names.at(7);
+    };
+    EXPECT_EQ(heads(), "dissipated");
+    EXPECT_EQ(heads(moving(Oscillation<2>{.amplitude = {0, 0.1}, .omega = 1})), "dissipated_less_work");
+}
+// Mass over density, exact: a lattice at the densities of its depth has a little less than its box.
+TEST_F(HistoryTest, HasTheVolume)
+{
+    auto tank = small_tank::scene();
+    History history(folder, 0);
+    tank.run({.steps = 3}, history);
+    double volume = 0;
+    auto const& p = tank.particles();
+    for (std::size_t i = 0; i < p.size(); ++i) volume += p.at(mass, i) / p.at(density, i);
+    EXPECT_NEAR(table().at(3, "volume"), volume, 1e-14);
+    EXPECT_NEAR(volume, 0.25, 0.25 * 9.81 * 0.5 / (30 * 30));
+    EXPECT_LT(volume, 0.25);
 }
 
 // The first step at or after each multiple, the start and the end; no step is cut for it.

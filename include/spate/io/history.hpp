@@ -109,6 +109,25 @@ private:
         std::remove_cvref_t<decltype(std::declval<Scene&>().particles())>::template has<Density>;
 
     template <class Scene>
+    static constexpr bool has_markers = requires(Scene& s)
+    {
+        s.wall_force();
+    };
+    /// What the walls have given to the particles since the first row: the trapezoidal rule over the rows [N s].
+    template <class Scene>
+    [[gnu::cold]] auto wall_impulse(Scene& scene)
+    {
+        auto impulse = scene.wall_force(); // on the walls
+        for (int c = 0; c < Scene::dim; ++c) {
+            const double now = -impulse[c];
+            auto& [before, sum] = wall_[std::size_t(c)];
+            if (written_ >= 0) sum += 0.5 * (before + now) * (scene.time() - at_);
+            before = now, impulse[c] = sum;
+        }
+        at_ = scene.time();
+        return impulse;
+    }
+    template <class Scene>
     [[gnu::cold]] std::string heading(Scene& scene) const
     {
         detail::Row row;
@@ -125,8 +144,12 @@ private:
         };
         for (auto* name : {"step", "t", "dt", "dt_criterion", "kinetic", "potential"}) add(name);
         add(has_density<Scene> ? "compressive" : "elastic");
-        add("dissipated");
+        add(scene.driven() ? "dissipated_less_work" : "dissipated"); // the work of walls and forces is not known apart
         for (auto const& name : detail::headings("momentum", scene.momentum())) add(name);
+        if constexpr (has_density<Scene>) add("volume");
+        for (auto const& name : detail::headings("gravity_impulse", scene.momentum())) add(name);
+        if constexpr (has_markers<Scene>)
+            for (auto const& name : detail::headings("wall_impulse", scene.momentum())) add(name);
         add("max_speed");
         if constexpr (has_density<Scene>) add("density_min"), add("density_max");
         std::apply([&](auto const&... c) { (each_of(detail::headings(c.name, decltype(c(scene)){}), add), ...); },
@@ -142,7 +165,7 @@ private:
     {
         scene.refresh();
         const auto e = scene.energy();
-        if (written_ < 0) start_ = e.total();
+        if (written_ < 0) start_ = e.total(), since_ = scene.time();
         const auto extremes = scene.system().extremes();
         detail::Row row;
         row.add(scene.steps());
@@ -151,6 +174,9 @@ private:
         row.add(scene.criterion());
         for (double part : {e.kinetic, e.potential, e.internal, start_ - e.total()}) row.add(part);
         row.add(scene.momentum());
+        if constexpr (has_density<Scene>) row.add(scene.volume());
+        row.add((scene.total_mass() * (scene.time() - since_)) * scene.gravity());
+        if constexpr (has_markers<Scene>) row.add(wall_impulse(scene));
         row.add(extremes.speed);
         if constexpr (has_density<Scene>) row.add(extremes.least_density), row.add(extremes.most_density);
         std::apply([&](auto const&... c) { (row.add(c(scene)), ...); }, columns_);
@@ -167,8 +193,10 @@ private:
     detail::Every every_;
     std::tuple<Column...> columns_;
     std::ofstream out_;
-    double start_ = 0;          ///< total energy of the first row [J]; no wall or force of the library does work unseen
-    std::int64_t written_ = -1; ///< step of the last row
+    double since_ = 0, at_ = 0;                   ///< times of the first and the last row [s]
+    std::array<std::array<double, 2>, 3> wall_{}; ///< by axis: force of the walls at the last row [N], impulse [N s]
+    double start_ = 0;                            ///< total energy of the first row [J]
+    std::int64_t written_ = -1;                   ///< step of the last row
 };
 
 } // namespace spate::io

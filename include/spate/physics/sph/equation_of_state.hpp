@@ -15,6 +15,7 @@ concept EquationOfState = requires(E const e, double x) {
     { e.pressure_of(x) } -> std::same_as<double>;        // p(rho) [Pa]
     { e.density_of(x) } -> std::same_as<double>;         // rho(p) [kg/m^3]
     { e.hydrostatic_density(x) } -> std::same_as<double>; // rho where the potential is g z [m^2/s^2] below the surface
+    { e.enthalpy_of(x) } -> std::same_as<double>;        // integral of dp/rho from rho0, the inverse of that [m^2/s^2]
     { e.energy_of(x) } -> std::same_as<double>;          // compressive energy e(rho) [J/kg]
 };
 // clang-format on

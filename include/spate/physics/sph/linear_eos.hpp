@@ -37,6 +37,7 @@ struct LinearEos {
         return V(rho0) + p * V(1 / (c0 * c0));
     }
     [[nodiscard]] double hydrostatic_density(double gz) const { return rho0 * std::exp(gz / (c0 * c0)); }
+    [[nodiscard]] double enthalpy_of(double rho) const { return c0 * c0 * std::log1p((rho - rho0) / rho0); }
     /// e = c0^2 (ln x + 1/x - 1), x = rho/rho0, by its series for small s.
     [[nodiscard]] double energy_of(double rho) const
     {

@@ -52,6 +52,12 @@ struct Tait {
     {
         return rho0 * std::pow(1 + (gamma - 1) * gz * rho0 / (gamma * stiffness()), 1 / (gamma - 1));
     }
+    /// Integral of dp/rho from rho0 = 7/6 (B/rho0) ((rho/rho0)^6 - 1), factored: exact near rho0 too.
+    [[nodiscard]] double enthalpy_of(double rho) const
+    {
+        const double x = rho / rho0, s = (rho - rho0) / rho0;
+        return gamma * stiffness() / ((gamma - 1) * rho0) * s * (x + 1) * (x * x + x + 1) * (x * x - x + 1);
+    }
     /// e = integral of p/rho^2 from rho0 = (B/rho0) ((x^6 - 1)/6 + 1/x - 1), x = rho/rho0, by its series for small s.
     [[nodiscard]] double energy_of(double rho) const
     {
