@@ -220,6 +220,8 @@ def figures(run):
         ("sweep over the same terms on packs from L1", get("sweep", "over_packs"), 2.2, 1.8),
         ("float over double, sweep", get("sweep", "float_over_double"), 0.75, None),
         ("discs, a particle-step [ns]", get("dense_discs/threads:1", "cpu_ns_marker"), 18, None),
+        ("the seed's 139,332 markers, a step [ms]", get("dam_break_seed", "ms_step"), 15, 10),
+        ("steps between walls of Adami over by continuity", get("walls", "step_over"), 1.35, None),
         ("bytes a marker", get(one, "bytes_a_marker"), 450, None),
     ]
 
@@ -232,6 +234,10 @@ def step(run):
     scenes = [b for b in run.all if "cpu_ns_pair" in run[b]]
     columns = ["cpu_ns_pair", "wall_ns_pair", "cpu_ns_marker", "wall_ns_marker", "steps", "rebuilds", "pairs_a_marker"]
     table([[b] + [run.get(b, c) for c in columns] for b in scenes], ["whole steps", *columns])
+    if "walls" in run.all:
+        print()
+        columns = ["adami_ms", "by_continuity_ms", "rates_over", "adami_ms_step", "by_continuity_ms_step", "step_over"]
+        table([["dam break big"] + [run.get("walls", c) for c in columns]], ["walls: rates, steps", *columns])
     if "sweep" in run.all:
         print()
         columns = ["double_ns_pair", "float_ns_pair", "records_ns_pair", "packs_ns_pair", "over_records", "slots_pair"]
