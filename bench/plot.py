@@ -95,6 +95,30 @@ def bars(axis, labels, series, title, unit):
         axis.legend(loc="best", fontsize=10)
 
 
+def added_to_a_fluid(run):
+    """What each feature costs a pair where it is named; what it costs where it is not, instructions/absent tests."""
+    one_loop = "in the loop of the fluid"
+    fused = ["LaminarViscosity", "MonaghanCleary", "ArtificialViscosity", "MolteniColagrossi", "DensityDiffusion"]
+    fused += ["TensileCorrection", "Xsph"]
+    types = ("double", "float")
+    base = [run.get(f"added/none/{t}") for t in types]
+    if base[0] is None:
+        return
+    rows = [["continuity and pressure force", one_loop, *base]]
+    for name in fused:
+        values = [run.get(f"added/{name}/{t}") for t in types]
+        rows.append([name, one_loop, *(v - b for v, b in zip(values, base))])
+    own = [("Shifting", "a pass each step"), ("SurfaceShifting", "a pass each step")]
+    own += [(f"DensityReinit by {k}", "a pass every n steps") for k in ("Shepard", "Mls")]
+    for name, work in own:
+        rows.append([name, work, *(run.get(f"term/{name}/{t}/records") for t in types)])
+    for name in ("wall ByContinuity", "wall Adami"):
+        rows.append([name, "wall <- fluid pairs", *(run.get(f"added/{name}/{t}") for t in types)])
+    print("\nwhat a feature adds, from L1, ns a pair")
+    table(rows, ["", "where", "double", "float"])
+    print("a feature that is not named adds no instruction: ctest -R instructions/absent")
+
+
 def kernel(run):
     names = lambda prefix: list(dict.fromkeys(b.split("/")[1] for b in run.all if b.startswith(prefix + "/")))
     kernels = [f"{k}/{f}" for k in names("kernel") for f in "fg"]
@@ -106,6 +130,7 @@ def kernel(run):
     print("\npair terms from L1, ns a pair")
     columns = [f"{t}/{v}" for t, _ in types for v in ("scalar", "records", "packs")]
     table([[k] + [run.get(f"term/{k}/{c}") for c in columns] for k in terms], ["", *columns])
+    added_to_a_fluid(run)
     stages = names("stage")
     print("\nstages of an evaluation and of a rebuild, ns a particle")
     table([[k, run.get(f"stage/{k}")] for k in stages], ["", "ns"])
