@@ -100,6 +100,41 @@ void all_pair_terms()
     pair_terms("term/fused dam break", dam_break_water(), m);
 }
 
+/// What a term adds to a fluid that has continuity and pressure force already, by the engine's own loop; the base is "none".
+template <class P, class B = Open, int s = 0, int q = 0>
+void added(std::string const& name, P const& physics, B const& boundary = {})
+{
+    auto run = [=]<class Precision>(Precision, std::string const& of) {
+        auto time = [=](benchmark::State& state) {
+            FromL1<P, B, Precision, s, q> l1(physics, boundary, 1000 * dx * dx * dx);
+            least(state, l1.pairs, 20, [&] { l1.on_records(); });
+        };
+        benchmark::RegisterBenchmark(("added/" + name + of).c_str(), time)->MinTime(0.1);
+    };
+    run(Double{}, "/double");
+    run(Float{}, "/float");
+}
+void all_added()
+{
+    auto fluid = [](auto... more) { return water(1.2, Continuity<2>{}, PressureForce<2>{}, more...); };
+    added("none", fluid());
+    added("LaminarViscosity", fluid(LaminarViscosity{.mu = 1e-3}));
+    added("MonaghanCleary", fluid(MonaghanCleary<3>{.mu = 1e-3}));
+    added("ArtificialViscosity", fluid(ArtificialViscosity{.alpha = 0.1}));
+    added("MolteniColagrossi", fluid(MolteniColagrossi{.delta = 0.1}));
+    added("DensityDiffusion", fluid(DensityDiffusion{.delta = 0.1}, Gravity<3>{{0, 0, -g}}));
+    added("TensileCorrection", fluid(TensileCorrection{}).at(dx));
+    added("Xsph", fluid(Xsph{}));
+    const Box<3> box{{0, 0, 0}, {1, 1, 1}};
+    const auto physics = fluid();
+    auto walls = [&]<class Wall>(std::string const& name, Wall wall) {
+        using B = decltype(Bce(box, dx, wall));
+        added<std::remove_cv_t<decltype(physics)>, B, 1, 0>(name, physics, Bce(box, dx, wall));
+    };
+    walls("wall ByContinuity", ByContinuity{});
+    walls("wall Adami", Adami{});
+}
+
 template <int Dim>
 void selection(benchmark::State& state)
 {
@@ -188,6 +223,7 @@ void integrator()
     kernel<WendlandC4<3>>("WendlandC4");
     kernel<WendlandC6<3>>("WendlandC6");
     all_pair_terms();
+    all_added();
     stages();
     integrator<ForwardEuler>();
     integrator<SymplecticEuler>();

@@ -95,6 +95,30 @@ def bars(axis, labels, series, title, unit):
         axis.legend(loc="best", fontsize=10)
 
 
+def added_to_a_fluid(run):
+    """What each feature costs a pair where it is named; what it costs where it is not, instructions/absent tests."""
+    one_loop = "in the loop of the fluid"
+    fused = ["LaminarViscosity", "MonaghanCleary", "ArtificialViscosity", "MolteniColagrossi", "DensityDiffusion"]
+    fused += ["TensileCorrection", "Xsph"]
+    types = ("double", "float")
+    base = [run.get(f"added/none/{t}") for t in types]
+    if base[0] is None:
+        return
+    rows = [["continuity and pressure force", one_loop, *base]]
+    for name in fused:
+        values = [run.get(f"added/{name}/{t}") for t in types]
+        rows.append([name, one_loop, *(v - b for v, b in zip(values, base))])
+    own = [("Shifting", "a pass each step"), ("SurfaceShifting", "a pass each step")]
+    own += [(f"DensityReinit by {k}", "a pass every n steps") for k in ("Shepard", "Mls")]
+    for name, work in own:
+        rows.append([name, work, *(run.get(f"term/{name}/{t}/records") for t in types)])
+    for name in ("wall ByContinuity", "wall Adami"):
+        rows.append([name, "wall <- fluid pairs", *(run.get(f"added/{name}/{t}") for t in types)])
+    print("\nwhat a feature adds, from L1, ns a pair")
+    table(rows, ["", "where", "double", "float"])
+    print("a feature that is not named adds no instruction: ctest -R instructions/absent")
+
+
 def kernel(run):
     names = lambda prefix: list(dict.fromkeys(b.split("/")[1] for b in run.all if b.startswith(prefix + "/")))
     kernels = [f"{k}/{f}" for k in names("kernel") for f in "fg"]
@@ -106,6 +130,7 @@ def kernel(run):
     print("\npair terms from L1, ns a pair")
     columns = [f"{t}/{v}" for t, _ in types for v in ("scalar", "records", "packs")]
     table([[k] + [run.get(f"term/{k}/{c}") for c in columns] for k in terms], ["", *columns])
+    added_to_a_fluid(run)
     stages = names("stage")
     print("\nstages of an evaluation and of a rebuild, ns a particle")
     table([[k, run.get(f"stage/{k}")] for k in stages], ["", "ns"])
@@ -220,6 +245,8 @@ def figures(run):
         ("sweep over the same terms on packs from L1", get("sweep", "over_packs"), 2.2, 1.8),
         ("float over double, sweep", get("sweep", "float_over_double"), 0.75, None),
         ("discs, a particle-step [ns]", get("dense_discs/threads:1", "cpu_ns_marker"), 18, None),
+        ("the seed's 139,332 markers, a step [ms]", get("dam_break_seed", "ms_step"), 15, 10),
+        ("steps between walls of Adami over by continuity", get("walls", "step_over"), 1.35, None),
         ("bytes a marker", get(one, "bytes_a_marker"), 450, None),
     ]
 
@@ -232,6 +259,10 @@ def step(run):
     scenes = [b for b in run.all if "cpu_ns_pair" in run[b]]
     columns = ["cpu_ns_pair", "wall_ns_pair", "cpu_ns_marker", "wall_ns_marker", "steps", "rebuilds", "pairs_a_marker"]
     table([[b] + [run.get(b, c) for c in columns] for b in scenes], ["whole steps", *columns])
+    if "walls" in run.all:
+        print()
+        columns = ["adami_ms", "by_continuity_ms", "rates_over", "adami_ms_step", "by_continuity_ms_step", "step_over"]
+        table([["dam break big"] + [run.get("walls", c) for c in columns]], ["walls: rates, steps", *columns])
     if "sweep" in run.all:
         print()
         columns = ["double_ns_pair", "float_ns_pair", "records_ns_pair", "packs_ns_pair", "over_records", "slots_pair"]

@@ -38,6 +38,50 @@ void dam_break_big(benchmark::State& state)
 BENCHMARK(dam_break_big<Double>)->ArgName("threads")->Arg(1)->Arg(2)->Iterations(2)->Unit(benchmark::kSecond);
 BENCHMARK(dam_break_big<Float>)->ArgName("threads")->Arg(1)->Iterations(2)->Unit(benchmark::kSecond);
 
+/// The seed's run of 139,332 markers, of which the seed's own code takes 1.2 s a step: the first 200 steps.
+void dam_break_seed(benchmark::State& state)
+{
+    Cost cost;
+    for (auto _ : state) run_on(cost, seed_dam, {.dt = 1e-4}, 200 * 1e-4);
+    cost.say(state, 1);
+    state.counters["ms_step"] = 1e3 * Cost::sum(cost.cpu) / double(cost.steps);
+    state.counters["markers"] = cost.markers;
+}
+BENCHMARK(dam_break_seed)->Iterations(2)->Unit(benchmark::kSecond);
+
+/// What markers cost that get their pressure from the fluid: the dam break "big" in developed flow between walls of Adami
+/// and between walls by continuity, evaluations of the rates turn by turn, and whole steps.
+void walls(benchmark::State& state)
+{
+    auto with = [](auto wall) {
+        auto dam = big_dam(1, Double{}, wall);
+        Developed::flow().put_into(dam);
+        return dam;
+    };
+    auto adami = with(Adami{.suction = false});
+    auto by_continuity = with(ByContinuity{});
+    adami.step(like_dam_break), by_continuity.step(like_dam_break);
+    Least a, c;
+    Cost step_a, step_c;
+    for (int k = 0; k < 40; ++k) {
+        a.of([&] { adami.system().rates(adami.system().all); });
+        c.of([&] { by_continuity.system().rates(by_continuity.system().all); });
+    }
+    for (auto _ : state) {
+        run_on(
+            step_a, [&] { return with(Adami{.suction = false}); }, like_dam_break, window);
+        run_on(
+            step_c, [&] { return with(ByContinuity{}); }, like_dam_break, window);
+    }
+    auto a_step = [](Cost const& cost) { return 1e3 * Cost::sum(cost.cpu) / double(cost.steps); };
+    auto& counters = state.counters;
+    counters["adami_ms"] = 1e3 * a.seconds, counters["by_continuity_ms"] = 1e3 * c.seconds;
+    counters["adami_ms_step"] = a_step(step_a), counters["by_continuity_ms_step"] = a_step(step_c);
+    counters["rates_over"] = a.seconds / c.seconds;
+    counters["step_over"] = a_step(step_a) / a_step(step_c);
+}
+BENCHMARK(walls)->Iterations(2)->Unit(benchmark::kSecond);
+
 /// Sweeps of the developed flow in double and in float, turn by turn with the same terms on packs and records from L1.
 void sweep(benchmark::State& state)
 {

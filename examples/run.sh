@@ -42,14 +42,19 @@ shift
 # The policy options, one a line of examples/NAME/options:
 #   --dim 2|3 default=3 define=SPATE_DIM                                                     # what it chooses
 #   --kernel cubic_spline=CubicSpline|wendland_c2=WendlandC2 default=cubic_spline define=SPATE_KERNEL
-# The chosen value, or the word after its =, becomes the definition.
-options=()
+# The chosen value, or the word after its =, becomes the definition. And what a value of an option stands for:
+#   --case seed: --viscosity laminar --dt 1e-4
+options=() implied=()
 declare -A choices=() value=() define=() text=()
 if [[ -f $root/examples/$name/options ]]; then
     while IFS= read -r line || [[ -n $line ]]; do
         words=${line%%#*}
         read -ra words <<< "$words"
         ((${#words[@]})) || continue
+        if [[ ${words[1]-} == *: ]]; then
+            implied+=("${words[*]}")
+            continue
+        fi
         option=${words[0]}
         options+=("$option")
         choices[$option]=${words[1]}
@@ -81,6 +86,16 @@ meaning()
         [[ ${choice%%=*} != "$2" ]] || echo "${choice#*=}"
     done
 }
+
+# What a value stands for, unless an option says otherwise.
+asked=" ${*//=/ } "
+for line in "${implied[@]}"; do
+    read -ra words <<< "$line"
+    [[ $asked == *" ${words[0]} ${words[1]%:} "* ]] || continue
+    for ((k = 2; k < ${#words[@]}; k += 2)); do
+        [[ $asked == *" ${words[k]} "* ]] || set -- "$@" "${words[k]}" "${words[k + 1]}"
+    done
+done
 
 # Ours are taken out; the others go to the program as they are.
 passed=() help=no
@@ -156,4 +171,5 @@ if ((${#options[@]})); then
         line="$option $(allowed "$option" | tr ' ' '|')"
         printf '  %-52s%s (default %s)\n' "$line" "${text[$option]-}" "$(sed -n "s/^ *$option .*default=\([^ ]*\).*/\1/p" "$root/examples/$name/options")"
     done
+    for line in "${implied[@]}"; do echo "  ${line/:/ stands for}, unless they are given"; done
 fi

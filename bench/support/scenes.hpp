@@ -61,12 +61,25 @@ auto block(int n, P const& physics, I integrator = {}, Precision precision = {},
 }
 
 /// The dam break "big" of the issue, at rest: a column of 0.5 x 0.4 x 0.4 m in a tank of 1 x 0.4 x 0.5 m.
-template <class Precision = Double>
-auto big_dam(int threads, Precision precision = {})
+template <class Precision = Double, class Wall = Adami>
+auto big_dam(int threads, Precision precision = {}, Wall wall = {.suction = false})
 {
-    Bce tank(Box<3>{{0, 0, 0}, {1, 0.4, 0.5}}, dx, Adami{.suction = false}, open(top));
+    Bce tank(Box<3>{{0, 0, 0}, {1, 0.4, 0.5}}, dx, wall, open(top));
     Simulation dam(dam_break_water(), RungeKutta2{}, tank, Threads{.count = threads}, precision);
     dam.fill(Box<3>{{0, 0, 0}, {0.5, 0.4, 0.4}}, dx, hydrostatic);
+    return dam;
+}
+
+/// The seed's run (`dam_break --case seed`): 17,556 particles of water and 121,776 markers, at rest.
+inline auto seed_dam()
+{
+    constexpr double h = 0.02;
+    auto fluid =
+        wcsph(CubicSpline<3>{.h = h}, Tait{.rho0 = 1000, .c0 = 25}, Continuity<2>{}, DensityDiffusion{.delta = 0.1},
+              PressureForce<2>{}, LaminarViscosity{.mu = 1}, Gravity<3>{{0, 0, -1}});
+    Bce tank(Box<3>{{0, 0, 0}, {3.08, 0.08, 2.28}}, h, ByContinuity{}, layers(3));
+    Simulation dam(fluid, RungeKutta2{}, tank, Threads{.count = 1});
+    dam.fill(Box<3>{{0, 0, 0}, {1.54, 0.08, 1.14}}, h, hydrostatic);
     return dam;
 }
 

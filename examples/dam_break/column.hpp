@@ -1,29 +1,62 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// \brief The boxes of the dam break: the column of Martin & Moyce, and those on which other codes have been timed.
+/// \brief The boxes of the dam break: the column of Martin & Moyce, those on which other codes have been timed, and those
+/// in which pressure has been measured; with their sensors.
 #pragma once
 
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <unistd.h>
 
 #include <spate/core/box.hpp>
+#include <spate/measure/front.hpp>
+#include <spate/measure/gauge.hpp>
+#include <spate/measure/probe.hpp>
 
-/// A column of water in the left corner of a tank; the first axis is along, the last one up.
+/// A column of water in a tank; the first axis is along, the last one up.
 template <int Dim>
 struct Column {
-    spate::Box<Dim> tank, water;
-    double spacing; ///< of the particles [m]
-    double alpha;   ///< of the artificial viscosity [-]
+    using Point = spate::Vec<Dim, double>;
 
-    [[nodiscard]] double height() const { return water.hi[Dim - 1]; } // [m]
+    spate::Box<Dim> tank, water;
+    double spacing;                                        ///< of the particles [m]
+    double alpha;                                          ///< of artificial viscosity [-]
+    double mu = 1e-3;                                      ///< of laminar viscosity: that of water [Pa s]
+    double g = 9.81;                                       ///< [m/s^2]
+    double fastest = std::sqrt(2 * g * water.hi[Dim - 1]); ///< speed of the flow: from the height of the column [m/s]
+    std::optional<double> smoothing = {};                  ///< h/dx [-]; the kernel's where the case does not say
+    spate::Face open = spate::top;
+    spate::Box<Dim> box = empty; ///< stands in the tank
+
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+    inline static const spate::Box<Dim> empty = [] {
+        spate::Box<Dim> b;
+        for (int c = 0; c < Dim; ++c) b.lo[c] = infinity, b.hi[c] = -infinity;
+        return b;
+    }();
+    using Pressure = spate::Probe<spate::Pressure, Dim>;
+    using Depth = spate::Gauge<Dim>;
+    std::vector<Pressure> sensors = {}; ///< columns of history.csv
+    std::vector<Depth> gauges = {};
+
     /// A point x along and z up, in the middle across.
-    [[nodiscard]] spate::Vec<Dim, double> at(double x, double z) const
+    [[nodiscard]] Point at(double x, double z) const
     {
         auto p = 0.5 * tank.hi;
         p[0] = x, p[Dim - 1] = z;
         return p;
+    }
+    void sensor(char const* name, Point const& x) { sensors.push_back({name, spate::pressure, x}); }
+    void gauge(char const* name, double x) { gauges.push_back({name, at(x, 0), spacing}); }
+    /// Of the water, which runs to the left where it stands on the right.
+    [[nodiscard]] spate::Front front() const
+    {
+        if (water.lo[0] == tank.lo[0]) return {spacing};
+        return {.spacing = -spacing, .share = 0.005}; // the same share of it is not yet there
     }
 };
 
@@ -48,7 +81,53 @@ template <int Dim>
     return water + all - tank;
 }
 
-/// \param name     default, big, small (3D) or 2d (2D)
+/// The seed's 139,332 markers: x = 3.2, y = 2.4 (up) and z = 0.2 m with three layers on all six walls, as its code lays
+/// them: water to half of the length and of the height.
+template <int Dim>
+[[gnu::cold]] Column<Dim> seed()
+{
+    // c0 = 25 m/s is ten times 2.5 m/s.
+    return {.tank = box_of<Dim>(3.08, 0.08, 2.28),
+            .water = box_of<Dim>(1.54, 0.08, 1.14),
+            .spacing = 0.02,
+            .alpha = 0.1,
+            .mu = 1,
+            .g = 1,
+            .fastest = 2.5,
+            .smoothing = 1,
+            .open = spate::nowhere};
+}
+/// SPHERIC test 2 (Kleefsman et al. 2005): water on the right runs against a box. Both are of whole spacings: the length of
+/// the water is rounded up, its depth down.
+[[gnu::cold]] inline void spheric2(Column<3>& c)
+{
+    const double dx = c.spacing, x = 3.22 - dx * std::ceil(1.228 / dx - 1e-6), z = dx * std::floor(0.55 / dx + 1e-6);
+    c.water = {{x, 0, 0}, {3.22, 1, z}};
+    c.box = {{0.6635, 0.2955, 0}, {0.8245, 0.6985, 0.161}};
+}
+
+/// Where the experiments measured, and the foot of the tank.
+template <int Dim>
+[[gnu::cold]] void measure(std::string const& name, Column<Dim>& c)
+{
+    const double L = c.tank.hi[0];
+    if (name == "lobovsky") { // Lobovsky et al. 2014
+        c.sensor("p_s1", c.at(L, 0.003)), c.sensor("p_s2", c.at(L, 0.015));
+        c.sensor("p_s3", c.at(L, 0.03)), c.sensor("p_s4", c.at(L, 0.08));
+        c.gauge("h1", 0.3), c.gauge("h2", 0.865), c.gauge("h3", 1.114), c.gauge("h4", 1.3625);
+    }
+    else if (name == "obstacle") { // Kleefsman et al. 2005; in the middle of the box across
+        const char* names[] = {"p1", "p2", "p3", "p4", "p5", "p6", "p7", "p8"};
+        for (int k = 0; k < 8; ++k) {
+            const double s = 0.021 + 0.04 * (k % 4); // from the edge: up on its face, then along its top
+            c.sensor(names[k], k < 4 ? c.at(0.8245, s) : c.at(0.8245 - s, 0.161));
+        }
+        c.gauge("h_x0496", 0.496), c.gauge("h_x0992", 0.992), c.gauge("h_x1488", 1.488), c.gauge("h_x2638", 2.638);
+    }
+    else c.sensor("p_bed", c.at(0, 0)), c.sensor("p_wall", c.at(L, 0)), c.gauge("depth_left", 0);
+}
+
+/// \param name     default, lobovsky; big, small, seed or obstacle (3D); 2d (2D)
 /// \param spacing  0: that of the case; else one that divides its boxes [m]
 template <int Dim>
 [[gnu::cold]] Column<Dim> column(std::string const& name, double spacing)
@@ -56,22 +135,31 @@ template <int Dim>
     constexpr double H = 0.6; // [m]
     double unit = H / 4;      // every edge of both boxes is a multiple of it [m]
     Column<Dim> c{box_of<Dim>(4 * H, H / 4, 2 * H), box_of<Dim>(H / 2, H / 4, H), Dim == 3 ? H / 32 : H / 80, 0.02};
-    if (name != "default" && (name == "2d") != (Dim == 2))
+    if (name != "default" && name != "lobovsky" && (name == "2d") != (Dim == 2))
         throw spate::BadInput("case", name,
-                              Dim == 2 ? "default or 2d with --dim 2" : "default, big or small with --dim 3");
+                              Dim == 2 ? "default, lobovsky or 2d with --dim 2"
+                                       : "default, big, small, seed, lobovsky or obstacle with --dim 3");
     if (name == "big" || name == "small")
         c = {box_of<Dim>(1, 0.4, 0.5), box_of<Dim>(0.5, 0.4, 0.4), name == "big" ? 0.01 : 0.025, 0.1}, unit = 0.1;
     if (name == "2d") c = {box_of<Dim>(4, 0, 2), box_of<Dim>(2, 0, 1), 0.008, 0.1}, unit = 1;
-    if (spacing == 0) return c;
-    spate::require_positive("spacing", spacing, "m");
-    const double n = std::max(1.0, std::round(unit / spacing));
-    spate::require(std::abs(unit / spacing - n) < 1e-6 * n, "spacing", spacing,
-                   spate::text(unit) + " m over a whole number, so that it divides the boxes; the nearest is " +
-                       spate::text(unit / n) + " m");
-    c.spacing = unit / n;
-    const double memory = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE)); // [B]
-    spate::require(500 * markers(c) <= memory, "spacing", spacing, // bytes of a marker, lists included
-                   "one whose " + spate::text(markers(c)) + " particles fit in " + spate::text(memory / 1e9) +
-                       " GB of memory");
+    if (name == "seed") c = seed<Dim>(), unit = 0.02;
+    if (name == "lobovsky")
+        c = {box_of<Dim>(1.61, 0.15, 0.6), box_of<Dim>(0.6, 0.15, 0.3), Dim == 3 ? 0.01 : 0.0025, 0.02}, unit = 0.01;
+    if (name == "obstacle") c = {box_of<Dim>(3.22, 1, 1), box_of<Dim>(1.22, 1, 0.54), 0.02, 0.02}, unit = 0.02;
+    if (spacing != 0) {
+        spate::require_positive("spacing", spacing, "m");
+        const double n = std::max(1.0, std::round(unit / spacing));
+        spate::require(std::abs(unit / spacing - n) < 1e-6 * n, "spacing", spacing,
+                       spate::text(unit) + " m over a whole number, so that it divides the boxes; the nearest is " +
+                           spate::text(unit / n) + " m");
+        c.spacing = unit / n;
+        const double memory = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGESIZE)); // [B]
+        spate::require(500 * markers(c) <= memory, "spacing", spacing, // bytes of a marker, lists included
+                       "one whose " + spate::text(markers(c)) + " particles fit in " + spate::text(memory / 1e9) +
+                           " GB of memory");
+    }
+    if constexpr (Dim == 3)
+        if (name == "obstacle") spheric2(c), c.fastest = std::sqrt(2 * c.g * c.water.hi[2]);
+    measure(name, c);
     return c;
 }

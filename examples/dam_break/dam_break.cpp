@@ -12,26 +12,25 @@ int main(int argc, char** argv)
                              {.until = 0.9, .cfl = 0.2, .every = 0.01, .history_every = 0.002});
     auto const& o = example.options();
     std::string boxes = "default";
-    example.command_line().choice("--case", boxes, {"default", "big", "small", "2d"}, "Martin & Moyce, or of timings");
+    example.command_line().choice("--case", boxes, {"default", "big", "small", "2d", "seed", "lobovsky", "obstacle"},
+                                  "Martin & Moyce, of timings, or of other experiments");
 
     return example.main(argc, argv, [&] {
         const auto c = column<scene::dim>(boxes, o.spacing);
-        const double H = c.height(), L = c.tank.hi[0], dx = c.spacing; // column height, tank length, spacing [m]
-        const double c0 = 10 * std::sqrt(2 * 9.81 * H); // ten times the fastest flow: density varies by 1 %
+        const double dx = c.spacing, c0 = 10 * c.fastest; // ten times the fastest flow: density varies by 1 %
         // clang-format off
-        auto water = wcsph(scene::Kernel{.h = scene::smoothing * dx},
+        auto water = wcsph(scene::Kernel{.h = c.smoothing.value_or(scene::smoothing) * dx},
                            Tait{.rho0 = 1000, .c0 = c0},            // p       =  B ((rho/rho0)^7 - 1)
                            Continuity<2>{},                         // drho/dt =  sum m_j v_ij . grad W
                            DensityDiffusion{.delta = 0.1},          //           +delta h c0 sum V_j psi_ij . grad W
                            PressureForce<2>{},                      // dv/dt   = -sum m_j (p_i/rho_i^2 + p_j/rho_j^2) grad W
-                           ArtificialViscosity{.alpha = c.alpha},   //           -sum m_j Pi_ij grad W
-                           Gravity<scene::dim>{scene::down(9.81)}); //           +g
+                           scene::viscosity(c.alpha, c.mu),         //           -sum m_j Pi_ij grad W
+                           Gravity<scene::dim>{scene::down(c.g)});  //           +g
         // clang-format on
-        Bce tank(c.tank, dx, scene::wall, open(top));
+        Bce tank(c.tank, dx, scene::wall, layers(3), open(c.open), obstacle(c.box));
         Simulation dam(water, scene::Integrator{}, tank, scene::backend(o.threads, o.cell), scene::Precision{});
         dam.fill(c.water, dx, hydrostatic);
-        example.run(dam, Front{dx}, Leaks{dx}, WallForce{}, Probe{"p_bed", pressure, c.at(0, 0)},
-                    Probe{"p_wall", pressure, c.at(L, 0)}, Gauge{"depth_left", c.at(0, 0), dx});
+        example.run(dam, c.front(), Leaks{dx}, WallForce{}, c.sensors, c.gauges);
     });
 }
 // At 0.3 s the front has come to 0.89 m (Martin & Moyce: 0.87 m); it strikes the wall at 0.73 s.

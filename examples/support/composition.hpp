@@ -23,6 +23,9 @@
 #define SPATE_WALL                                                                                                     \
     Adami { .suction = false }
 #endif
+#ifndef SPATE_VISCOSITY
+#define SPATE_VISCOSITY ArtificialViscosity
+#endif
 #ifndef SPATE_BACKEND
 #define SPATE_BACKEND Threads
 #endif
@@ -44,6 +47,14 @@ inline constexpr char const* wall_text = SPATE_TEXT(SPATE_WALL);
 
 /// Smoothing length over spacing: Wendland's kernels are exact enough on wide supports only (docs/models).
 inline constexpr double smoothing = Kernel::smoothing;
+
+/// The viscosity chosen, with its own of the two numbers of a scene: alpha [-], or mu [Pa s].
+template <class V = spate::SPATE_VISCOSITY>
+V viscosity(double alpha, double mu)
+{
+    if constexpr (requires(V v) { v.mu; }) return {.mu = mu};
+    else return {.alpha = alpha};
+}
 
 /// The backend with the numbers of the command line.
 template <class B = Backend>

@@ -52,6 +52,16 @@ TEST(Bce, LinesTheBoxWithTheLayersOfTheRangeCornersToo)
     EXPECT_EQ(at.count({-1, 6, 0}), 0u); // above the open top
     EXPECT_EQ(at.count({0, 0, 0}), 0u);
 }
+TEST(Bce, HasAtLeastTheLayersAskedForAndTheRangeNeeds)
+{
+    EXPECT_EQ(Bce(field, dx, Adami{}, layers(5)).layers(range), 5);
+    EXPECT_EQ(Bce(field, dx, Adami{}, layers(2)).layers(range), 3);
+    EXPECT_EQ(placed<2>(Bce(field, dx, Adami{}, layers(5))).size(), 20u * 16 - 60);
+    EXPECT_EQ(placed<2>(Bce(field, dx, Adami{}, layers(2), open(nowhere))).size(), 16u * 12 - 60);
+    EXPECT_NEAR(Bce(field, dx, Adami{}, layers(5)).thickness(range), 0.5, 1e-12);
+    EXPECT_THROW((void)layers(0), BadInput);
+    EXPECT_THROW((Bce(field, dx, Adami{}, lid(nowhere, 1.0, 0.0))), BadInput);
+}
 TEST(Bce, FillsAnObstacleAsDeepAsTheRange)
 {
     const Box<2> wide{{0, 0}, {3, 2}};

@@ -4,6 +4,7 @@
 /// a species of their own that others see and that sees others only.
 #pragma once
 
+#include "spate/boundary/layers.hpp"
 #include "spate/boundary/lid.hpp"
 #include "spate/boundary/obstacle.hpp"
 #include "spate/boundary/periodic.hpp"
@@ -65,8 +66,8 @@ struct Wall;
 template <int Dim, class... O>
 struct Wall<Dim, std::tuple<O...>> {
     static_assert(((std::same_as<O, NoSlip> || std::same_as<O, FreeSlip> || is_lid<O> || is_moving<O> ||
-                    is_obstacle<O>)&&...),
-                  "spate: Bce takes open, periodic, no_slip, free_slip, lid, moving and obstacle as options");
+                    is_obstacle<O> || std::same_as<O, Layers>)&&...),
+                  "spate: Bce takes open, periodic, layers, no_slip, free_slip, lid, moving and obstacle as options");
     static_assert((fits<O, Dim> && ...),
                   "spate: a lid, a solid or a law of motion has another number of dimensions than the box of the Bce");
     static constexpr bool no_slip = (std::same_as<O, NoSlip> || ...), free_slip = (std::same_as<O, FreeSlip> || ...);
@@ -87,10 +88,10 @@ constexpr auto only_if(S set)
 } // namespace detail
 
 /// A box lined with markers, and solids of markers in it: `Bce tank(Box<3>{...}, dx, Adami{}, open(top))`. Faces may be
-/// open, axes periodic. Layers lie at 1/2, 3/2, ... spacings outside the faces, as many as the range needs; the markers of
-/// a solid are the points of the same lattice in it, as deep as the range.
+/// open, axes periodic. Layers lie at 1/2, 3/2, ... spacings outside the faces, as many as the range needs, or as `layers`
+/// asks for; the markers of a solid are the points of the same lattice in it, as deep.
 /// \tparam State  how the markers get density and pressure: ByContinuity, Adami or Extrapolated
-/// \tparam Parts  options other than open and periodic: no_slip, free_slip, lid, moving, obstacle
+/// \tparam Parts  options other than open and periodic: layers, no_slip, free_slip, lid, moving, obstacle
 template <int Dim, class State, class Parts = std::tuple<>>
 class Bce {
     using Wall = detail::Wall<Dim, Parts>;
@@ -121,6 +122,10 @@ public:
             if constexpr (detail::EdgeOption<O, Dim>) apply(edges_, o);
         };
         (edge(options), ...);
+        [[maybe_unused]] auto at_least = [&]<class O>(O const& o) {
+            if constexpr (std::same_as<O, Layers>) least_layers_ = o.least;
+        };
+        (at_least(options), ...);
         require_positive("Bce.spacing", spacing, "m");
         for (int c = 0; c < Dim; ++c) {
             const std::string length = along_axis("Bce.box length", c);
@@ -169,7 +174,10 @@ public:
         return box_;
     }
     [[nodiscard]] double spacing() const { return spacing_; }
-    [[nodiscard]] int layers(double range) const { return int(std::ceil(range / spacing_ - 1e-9)); }
+    [[nodiscard]] int layers(double range) const
+    {
+        return std::max(least_layers_, int(std::ceil(range / spacing_ - 1e-9)));
+    }
     [[nodiscard]] double thickness(double range) const { return layers(range) * spacing_; }
     void check(double reach) const { Periodic<Dim>::check_periodic(box_, edges_, reach); }
 
@@ -301,6 +309,7 @@ private:
     double spacing_;
     State how_;
     Edges<Dim> edges_;
+    int least_layers_ = 1;
     [[no_unique_address]] Parts parts_;
     Motions rigid_{};
 };

@@ -54,11 +54,12 @@ struct Box {
 
 /// A face of a box: the lower or the upper end of an axis; the last axis points up.
 struct Face {
-    int axis; ///< 0, 1, 2; -1: the last axis of the space; -2: the middle one, in 3D only
+    int axis; ///< 0, 1, 2; -1: the last axis of the space; -2: the middle one, in 3D only; -3: none
     bool upper;
 };
 inline constexpr Face left{0, false}, right{0, true}, front{-2, false}, back{-2, true}, bottom{-1, false},
     top{-1, true};
+inline constexpr Face nowhere{-3, false}; ///< open(nowhere): no face is open
 inline constexpr int x_axis = 0, y_axis = 1, z_axis = 2;
 
 /// The axis of a face in a space.
@@ -67,7 +68,7 @@ int axis_of(Face f)
 {
     if (f.axis == -2 && Dim != 3) throw BadInput("face", "front or back", "left, right, bottom or top below 3D");
     const int axis = f.axis == -2 ? 1 : f.axis == -1 ? Dim - 1 : f.axis;
-    if (axis >= Dim) throw BadInput("face", "axis " + std::to_string(axis), "an axis of the space");
+    if (axis < 0 || axis >= Dim) throw BadInput("face", "axis " + std::to_string(axis), "an axis of the space");
     return axis;
 }
 
@@ -81,7 +82,10 @@ struct Edges {
 
     explicit Edges(Edge all) { face.fill(all); }
     [[nodiscard]] Edge at(int axis, bool upper) const { return face[std::size_t(2 * axis + upper)]; }
-    [[gnu::cold]] void set(Face f, Edge e) { face[std::size_t(2 * axis_of<Dim>(f) + f.upper)] = e; }
+    [[gnu::cold]] void set(Face f, Edge e)
+    {
+        if (f.axis != nowhere.axis) face[std::size_t(2 * axis_of<Dim>(f) + f.upper)] = e;
+    }
     void set_axis(int axis, Edge e)
     {
         set({axis, false}, e);

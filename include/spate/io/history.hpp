@@ -60,7 +60,7 @@ template <int Dim>
 } // namespace detail
 
 /// History{directory, 0.001, Front{...}, Probe{...}}: an output of Simulation::run. A column is anything with a name that,
-/// called with the scene, returns a number or a vector. Rows grow in history.csv.tmp and are history.csv when the run ends.
+/// called with the scene, returns a number or a vector, or a range of such columns. Rows grow in history.csv.tmp and are history.csv when the run ends.
 template <class... Column>
 class History {
 public:
@@ -152,13 +152,23 @@ private:
             for (auto const& name : detail::headings("wall_impulse", scene.momentum())) add(name);
         add("max_speed");
         if constexpr (has_density<Scene>) add("density_min"), add("density_max");
-        std::apply([&](auto const&... c) { (each_of(detail::headings(c.name, decltype(c(scene)){}), add), ...); },
-                   columns_);
+        each_column([&](auto const& c) { each_of(detail::headings(c.name, decltype(c(scene)){}), add); });
         return row.text();
     }
     [[gnu::cold]] static void each_of(std::vector<std::string> const& names, auto const& f)
     {
         for (auto const& name : names) f(name);
+    }
+    template <class C>
+    static void each_in(C const& c, auto const& f)
+    {
+        if constexpr (requires { c.name; }) f(c);
+        else
+            for (auto const& one : c) each_in(one, f);
+    }
+    void each_column(auto const& f) const
+    {
+        std::apply([&](auto const&... c) { (each_in(c, f), ...); }, columns_);
     }
     template <class Scene>
     [[gnu::cold]] void write(Scene& scene) // seldom: small and quick to compile
@@ -179,7 +189,7 @@ private:
         if constexpr (has_markers<Scene>) row.add(wall_impulse(scene));
         row.add(extremes.speed);
         if constexpr (has_density<Scene>) row.add(extremes.least_density), row.add(extremes.most_density);
-        std::apply([&](auto const&... c) { (row.add(c(scene)), ...); }, columns_);
+        each_column([&](auto const& c) { row.add(c(scene)); });
         line(row.text());
         written_ = scene.steps();
     }
