@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <type_traits>
 #include <typeinfo>
 #include <vector>
 
@@ -65,6 +66,7 @@ public:
             code_ = 4;
         }
         finish(summary, scene);
+        if (code_ != 3) (measured(summary, scene, measure), ...);
         ended(summary, talk, directory, pictures.file());
     }
 
@@ -104,6 +106,16 @@ private:
         s.threads = sim.system().backend().threads();
         s.seed = options_.seed;
         return s;
+    }
+    /// The columns that history.csv ends with.
+    template <class Scene, class Measure>
+    [[gnu::cold]] static void measured(Summary& s, Scene& scene, Measure& measure)
+    {
+        const auto value = measure(scene);
+        const auto names = spate::io::detail::headings(measure.name, value);
+        if constexpr (std::is_arithmetic_v<decltype(measure(scene))>) s.measures.emplace_back(names[0], double(value));
+        else
+            for (std::size_t c = 0; c < names.size(); ++c) s.measures.emplace_back(names[c], value[int(c)]);
     }
     template <class Scene>
     [[gnu::cold]] static void finish(Summary& s, Scene const& scene)

@@ -141,6 +141,7 @@ void Summary::write(std::filesystem::path const& file) const
     for (auto const& [role, name] : composition) j["composition"][role] = name;
     j["composition"]["terms"] = terms;
     for (auto const& [species, names] : fields) j["fields"][species] = names;
+    for (auto const& [name, value] : measures) j["measures"][name] = value;
     j["warnings"] = warnings;
     j["files"] = files;
     j["versions"] = versions();

@@ -31,7 +31,8 @@ struct Summary {
     std::uint64_t state_hash = 0;
     std::vector<std::pair<std::string, std::string>> composition;
     Words terms;
-    std::vector<std::pair<std::string, Words>> fields; ///< by species
+    std::vector<std::pair<std::string, Words>> fields;    ///< by species
+    std::vector<std::pair<std::string, double>> measures; ///< at the end, under the names of their columns
     Words warnings;
     Words files;
     int threads = 1, ranks = 1;
