@@ -93,8 +93,8 @@ Fit run(int n, double smoothing, double Re, int maxima)
     return f;
 }
 
-/// The gate is that of H/dx = 50, and the error of first order in dx. With the cubic spline at 1.2 dx the lattice resists
-/// shear, and the wave is 5 % too fast at any resolution: docs/results/validation.md, known gaps.
+/// The gate is that of H/dx = 50, and the error of first order in dx. With the cubic spline at 1.2 dx the
+/// wave is 5 % too fast at H/dx = 20, for a reason not found: docs/results/validation.md, known gaps.
 TEST(StandingWave, HasThePeriodOfLinearTheory)
 {
     const Fit f = run<WendlandC2<2>>(20, 2, 500, 3);
