@@ -51,15 +51,22 @@ struct AdamiState {
     static constexpr Fields writes{pressure, density};
     static constexpr Between between{Role::marker, Role::any};
     E eos;
-    double least_sum; ///< kernel sum below which a marker sees nothing [1/m^dim]
-    double least;     ///< lower bound of the pressure [Pa]; -inf: none
+    double least_sum;                     ///< kernel sum below which a marker sees nothing [1/m^dim]
+    double least;                         ///< lower bound of the pressure [Pa]; -inf: none
+    double at_rest = eos.density_of(0.0); ///< of a marker that sees nothing [kg/m^3]
 
     void operator()(auto& i) const
     {
         const auto sum = i[kernel_sum];
         using V = std::remove_cv_t<decltype(sum)>;
+        const auto wet = sum > least_sum;
+        if (!any(wet)) { // most markers of a tank that is nearly empty
+            i[pressure] = V(0);
+            i[density] = V(at_rest);
+            return;
+        }
         const V seen = max(sum, V(least_sum));
-        const V p = where(sum > least_sum, max(i[pressure_sum] / seen, V(least)), V(0));
+        const V p = where(wet, max(i[pressure_sum] / seen, V(least)), V(0));
         i[pressure] = p;
         i[density] = eos.density_of(p);
     }
