@@ -78,7 +78,9 @@ void expect_the_solution(std::string const& what, double smoothing)
         const Shape now = shape(s, R / n);
         const double minor = now.minor / R / std::stod(row.at("minor")) - 1,
                      major = now.major / R / std::stod(row.at("major")) - 1;
-        if (t < 0.4 + 1e-9) EXPECT_LE(std::abs(minor), 0.01) << t;
+        if (t < 0.4 + 1e-9) {
+            EXPECT_LE(std::abs(minor), 0.01) << t;
+        }
         EXPECT_LE(std::abs(major), 0.01) << t;
         EXPECT_LE(std::abs(now.area / area - 1), 0.005) << t;
         minor_off = std::max(minor_off, std::abs(minor)), major_off = std::max(major_off, std::abs(major));

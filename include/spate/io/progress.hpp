@@ -76,7 +76,7 @@ private:
     [[gnu::cold]] static std::string duration(double seconds)
     {
         const auto s = static_cast<long long>(std::min(seconds, 1e9) + 0.5);
-        const auto two = [](long long n) { return (n < 10 ? "0" : "") + std::to_string(n); };
+        const auto two = [](long long n) { return std::to_string(n / 10) + std::to_string(n % 10); }; // n < 60
         if (s >= 3600) return std::to_string(s / 3600) + " h " + two(s / 60 % 60) + " min";
         if (s >= 60) return std::to_string(s / 60) + " min " + two(s % 60) + " s";
         return std::to_string(s) + " s";
