@@ -35,7 +35,8 @@ private:
     template <int t, int q, class System>
     void one(System const& s)
     {
-        auto const &target = s.template species<t>(), &source = s.template species<q>();
+        auto const& target = s.template species<t>();
+        auto const& source = s.template species<q>();
         constexpr int dim = System::dim;
         Vec<dim, double> period{};
         for (int c = 0; c < dim; ++c) period[c] = s.grid().period(c);
