@@ -111,11 +111,17 @@ private:
     template <class Scene, class Measure>
     [[gnu::cold]] static void measured(Summary& s, Scene& scene, Measure& measure)
     {
-        const auto value = measure(scene);
-        const auto names = spate::io::detail::headings(measure.name, value);
-        if constexpr (std::is_arithmetic_v<decltype(measure(scene))>) s.measures.emplace_back(names[0], double(value));
-        else
-            for (std::size_t c = 0; c < names.size(); ++c) s.measures.emplace_back(names[c], value[int(c)]);
+        if constexpr (requires { measure.begin(); }) {
+            for (auto& one : measure) measured(s, scene, one);
+        }
+        else {
+            const auto value = measure(scene);
+            const auto names = spate::io::detail::headings(measure.name, value);
+            if constexpr (std::is_arithmetic_v<decltype(measure(scene))>)
+                s.measures.emplace_back(names[0], double(value));
+            else
+                for (std::size_t c = 0; c < names.size(); ++c) s.measures.emplace_back(names[c], value[int(c)]);
+        }
     }
     template <class Scene>
     [[gnu::cold]] static void finish(Summary& s, Scene const& scene)
