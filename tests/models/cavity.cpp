@@ -25,7 +25,7 @@ double error(auto const& scene, double dx, std::string const& name)
             const double s = std::stod(row.at(along));
             if (s < dx || s > L - dx) continue; // a mean over neighbours needs them on both sides
             const At x = component == 0 ? At{L / 2, s} : At{s, L / 2};
-            const double v = Probe("", velocity, x)(scene)[component], e = v - std::stod(row.at("Re100"));
+            const double v = Probe{"", velocity, x}(scene)[component], e = v - std::stod(row.at("Re100"));
             table << "uv"[component] << ',' << s << ',' << v << ',' << row.at("Re100") << '\n';
             sum += e * e, ++points;
         }

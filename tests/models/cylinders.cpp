@@ -55,6 +55,8 @@ TEST(LongCylinders, HaveTheDragOfSanganiAndAcrivos)
         "U %.4e m/s, %.4f of %.4e; force on the cylinder %.5f, gain of momentum %.5f of the force on the fluid\n",
         after.superficial, after.superficial / U, U, force / after.weight, gain / after.weight);
     EXPECT_NEAR(after.superficial / U, 1, 0.03);
+    EXPECT_NEAR((force + gain) / after.weight, 1,
+                1e-3); // the balance of momentum; at rest in time, force would be all of it
     EXPECT_EQ(Leaks{dx}(s), 0);
 }
 
