@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/frame.hpp"
 
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <iostream>
@@ -118,8 +119,10 @@ void Frame::Talk::closing(Summary const& s, std::filesystem::path const& directo
     std::printf("\n");
     if (s.mach > 0)
         std::printf("largest Mach number %.3f, largest density change %.2f %%\n", s.mach, 100 * s.density_change);
-    std::printf("total energy %.6g J at the start, %.6g J at the end: %+.2f %% of the reference %.6g J\n",
-                s.energy_start, s.energy_end, 100 * s.energy_drift(), s.energy_reference);
+    std::printf("total energy %.6g J at the start, %.6g J at the end", s.energy_start, s.energy_end);
+    if (std::isfinite(s.energy_drift()))
+        std::printf(": %+.2f %% of the reference %.6g J", 100 * s.energy_drift(), s.energy_reference);
+    std::printf("\n");
     std::printf("picture: %s\nfiles in %s: summary.json", picture.c_str(), directory.c_str());
     for (auto const& file : s.files) std::printf(" %s", file.c_str());
     std::printf("\n");

@@ -33,7 +33,7 @@ int main(int argc, char** argv)
         Simulation flow(fluid, scene::Integrator{}, Periodic(box), scene::backend(o.threads, o.cell),
                         scene::Precision{});
         flow.fill(box, dx, [&](auto& p, auto i) { p.put(velocity, i, exact(p.at(position, i), 0)); });
-        example.run(flow, example::Difference("error", U, exact));
+        example.run(flow, example::Difference{"error", U, exact});
     });
 }
-// At t = 1 the fastest fluid has 45 % of its speed; the error is below 1 % of U.
+// At t = 1 the fastest fluid has 45 % of its speed; the largest error of any particle is 1.2 % of U.
