@@ -95,7 +95,7 @@ void build_lists(System const& s, Lists<System::dim>& lists)
     using Of = Lists<System::dim>;
     using T = typename System::T;
     constexpr int record = std::remove_cvref_t<decltype(x.packed)>::L::stride;
-    const auto places = Of::template Places<T>::of(x.particles);
+    const auto places = Places<System::dim, T>::of(x.particles);
     const std::array from{typename Of::template From<T>{lists, places, x.bins, record, true}};
     Of::build(places, x.bins, s.grid(), width<typename System::V>, s.neighbours().window,
               s.physics().interaction.range(), s.template skins<0>(), 0, s.backend(), from);

@@ -33,7 +33,6 @@ void Pictures::write(std::filesystem::path const& file, double time, int dim, do
     picture.value_name = "speed";
     picture.unit = "m/s";
     picture.dim = dim < 3 ? 2 : 3;
-    if (dim == 2) picture.axes = {"x", "z", ""};
     picture.value_min = 0;
     picture.value_max = fastest;
     spate::io::write_png(file, picture, balls);

@@ -10,8 +10,8 @@
 #include "spate/measure/nearest_image.hpp"
 #include "spate/measure/wall_force.hpp"
 #include "spate/measure/watch.hpp"
+#include "spate/physics/advice.hpp"
 #include "spate/physics/sph/rest.hpp"
-#include "spate/physics/sph/stability.hpp"
 #include "spate/physics/system.hpp"
 #include "spate/physics/time_step.hpp"
 
@@ -212,10 +212,8 @@ public:
             if constexpr (W::on)
                 stop_if_outside(system_.mobile(), system_.boundary(), physics().interaction.range(), step_, time_);
             rebuild();
-            Extremes unmoved = e;
-            unmoved.moved = unmoved.wall_moved = 0, unmoved.least_move = {}, unmoved.most_move = {};
-            if (stale(unmoved)) rebuild(true);
-            if (stale(unmoved)) stop_outrun(unmoved);
+            if (stale(e.unmoved())) rebuild(true);
+            if (stale(e.unmoved())) stop_outrun(e.unmoved());
         }
         if constexpr (W::on)
             if (step_ % watch_.energy_every == 0) look_at_energy();
@@ -578,35 +576,12 @@ private:
     /// Warns where theory predicts growth at this step.
     [[gnu::cold]] void advise(double dt)
     {
-        auto warn = [&](std::string const& w) { report_.warnings.push_back(w); };
+        double spacing = 0;
         if constexpr (has_equation_of_state<P>) {
             auto const& p = system_.mobile();
-            if (p.empty()) return;
-            const double spacing = std::pow(p.at(mass, 0) / equation_of_state(physics()).rho0, 1.0 / dim);
-            const WorstWave w = worst_wave(physics(), spacing, dt, &I::growth);
-            const double z = w.frequency * dt, decay = w.decay * dt;
-            if (I::imaginary_limit > 0 && z > I::imaginary_limit)
-                warn("dt = " + text(dt) + " s is above the acoustic limit of " + I::name + ", " +
-                     text(I::imaginary_limit / w.frequency) + " s: take a smaller dt or cfl");
-            if (decay > I::real_limit)
-                warn("dt = " + text(dt) + " s is above the viscous limit of " + I::name + ", " +
-                     text(I::real_limit / w.decay) + " s: take a smaller dt or cfl");
-            if (w.net_growth * dt > 1e-12)
-                warn(std::string(I::name) + " lets sound of wavelength " + text(w.wavelength) + " m grow e-fold in " +
-                     text(std::ceil(1 / (w.net_growth * dt))) +
-                     " steps beyond its damping: take a smaller cfl, Leapfrog, or " +
-                     "more ArtificialViscosity or DensityDiffusion");
+            if (!p.empty()) spacing = std::pow(p.at(mass, 0) / equation_of_state(physics()).rho0, 1.0 / dim);
         }
-        if (stiffness_.contact_frequency > 0) {
-            const double z = stiffness_.contact_frequency * dt;
-            if (I::growth(z) > 0)
-                warn(std::string(I::name) + " multiplies the energy of an undamped contact by " +
-                     text(std::exp(2 * std::log1p(I::growth(z)) * std::numbers::pi / z)) +
-                     " at this dt: take SymplecticEuler or Leapfrog");
-            else if (z > std::numbers::pi / 10)
-                warn("the contact is under-resolved: dt = " + text(dt) + " s is above a tenth of the contact time, " +
-                     text(std::numbers::pi / stiffness_.contact_frequency) + " s");
-        }
+        for (auto& warning : advice<I>(physics(), spacing, stiffness_, dt)) report_.warnings.push_back(warning);
     }
     /// Whether the lists may miss a pair at the positions of a step of dt.
     [[nodiscard]] bool stale(Extremes const& e) const

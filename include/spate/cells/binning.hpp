@@ -21,6 +21,21 @@ struct Images {
     std::vector<std::uint8_t> near_face; ///< two bits an axis: image up, image down
 };
 
+/// Where the particles of a species are: all that sorting and lists ask of it, so that they are compiled once.
+template <int Dim, class T>
+struct Places {
+    std::array<T const*, std::size_t(Dim)> x; ///< columns
+    std::size_t size;                         ///< particles
+
+    template <class P>
+    static Places of(P const& p)
+    {
+        Places places{{}, p.size()};
+        for (std::size_t c = 0; c < std::size_t(Dim); ++c) places.x[c] = p.column(position)[c].data();
+        return places;
+    }
+};
+
 template <int Dim>
 class Binning {
 public:
@@ -28,10 +43,9 @@ public:
     template <class P>
     void sort(P& p, Grid<Dim> const& grid)
     {
-        Positions<typename P::real> x; // all that is asked of a species: compiled once for all of them
-        for (std::size_t c = 0; c < x.size(); ++c) x[c] = p.column(position)[c].data();
-        p.permute(order_of(x, p.id(), grid));
-        make_images(x, p.size(), grid);
+        const auto places = Places<Dim, typename P::real>::of(p); // the columns stay where they are
+        p.permute(order_of(places, p.id(), grid));
+        make_images(places, grid);
     }
 
     [[nodiscard]] std::size_t cells() const { return cells_.size(); }
@@ -89,15 +103,13 @@ private:
             cell[std::size_t(c)] = std::int32_t(key & ((1u << bits) - 1)) - (1 << (bits - 1));
         return cell;
     }
-    template <class T>
-    using Positions = std::array<T const*, std::size_t(Dim)>;
-
     /// The particles by (cell, bin, id), and the cells that they occupy.
     template <class T>
-    std::vector<std::int32_t> order_of(Positions<T> const& x, std::vector<std::uint32_t> const& id,
+    std::vector<std::int32_t> order_of(Places<Dim, T> const& places, std::vector<std::uint32_t> const& id,
                                        Grid<Dim> const& grid)
     {
-        const std::size_t n = id.size();
+        auto const& x = places.x;
+        const std::size_t n = places.size;
         bins_of_cell_ = grid.bins_of_cell();
         std::vector<std::uint64_t> key(n);
         std::vector<std::int32_t> local(n), order(n);
@@ -110,7 +122,7 @@ private:
                 in_cell = in_cell * grid.bins_of_cell(c) + (bin - cell[std::size_t(c)] * grid.bins_of_cell(c));
             }
             key[i] = packed(cell);
-            if (key[i] == overflow) throw IndexOverflow(facts(x, id, i));
+            if (key[i] == overflow) throw IndexOverflow(facts(places, id, i));
             local[i] = in_cell;
         }
         find_cells(key);
@@ -163,8 +175,10 @@ private:
         return -1;
     }
     template <class T>
-    void make_images(Positions<T> const& x, std::size_t n, Grid<Dim> const& grid)
+    void make_images(Places<Dim, T> const& places, Grid<Dim> const& grid)
     {
+        auto const& x = places.x;
+        const std::size_t n = places.size;
         images_ = {};
         if (!grid.any_periodic()) return;
         images_.near_face.resize(n);
@@ -197,11 +211,12 @@ private:
         }
     }
     template <class T>
-    [[gnu::cold]] static StopFacts facts(Positions<T> const& x, std::vector<std::uint32_t> const& id, std::size_t i)
+    [[gnu::cold]] static StopFacts facts(Places<Dim, T> const& places, std::vector<std::uint32_t> const& id,
+                                         std::size_t i)
     {
         StopFacts f;
         f.particle = id[i];
-        for (int c = 0; c < Dim; ++c) f.position[c] = double(x[std::size_t(c)][i]);
+        for (int c = 0; c < Dim; ++c) f.position[c] = double(places.x[std::size_t(c)][i]);
         f.quantity = "the cell index of its position";
         f.limit = double(1 << (bits - 1));
         f.value = std::numeric_limits<double>::infinity();

@@ -44,25 +44,11 @@ struct CellLists {
 template <int Dim>
 class Lists {
 public:
-    /// Where the particles of a species are: all that is asked of it, so that lists are compiled once.
-    template <class T>
-    struct Places {
-        std::array<T const*, std::size_t(Dim)> x;
-        std::size_t size;
-
-        template <class P>
-        static Places of(P const& p)
-        {
-            Places places{{}, p.size()};
-            for (std::size_t c = 0; c < std::size_t(Dim); ++c) places.x[c] = p.column(position)[c].data();
-            return places;
-        }
-    };
     /// One source of the lists of a target: where they go, and whom they list.
     template <class T>
     struct From {
         Lists& lists;
-        Places<T> places;
+        Places<Dim, T> places;
         Binning<Dim> const& bins;
         int record; ///< length of a record of the source
         bool same;  ///< target and source are one species: a particle is not its own neighbour
@@ -71,7 +57,7 @@ public:
     /// \param W  targets in a block    \param window  see Neighbours
     /// \param range  [m]    \param beyond  reach beyond range and skin, as a fraction of the range
     template <class T, class Workers>
-    static void build(Places<T> const& target, Binning<Dim> const& at, Grid<Dim> const& grid, int W, int window,
+    static void build(Places<Dim, T> const& target, Binning<Dim> const& at, Grid<Dim> const& grid, int W, int window,
                       double range, Skins<Dim> const& skins, double beyond, Workers const& backend,
                       std::type_identity_t<std::span<const From<T>>> sources)
     {
@@ -160,8 +146,8 @@ private:
     static constexpr std::size_t most_sources = 2;
 
     template <class T>
-    static void build_cell(std::size_t k, Places<T> const& target, Binning<Dim> const& at, Grid<Dim> const& grid, int W,
-                           int window, double range, Skins<Dim> const& skins, double beyond,
+    static void build_cell(std::size_t k, Places<Dim, T> const& target, Binning<Dim> const& at, Grid<Dim> const& grid,
+                           int W, int window, double range, Skins<Dim> const& skins, double beyond,
                            std::span<const From<T>> from)
     {
         static thread_local std::array<Window, most_sources> open;
@@ -317,7 +303,7 @@ private:
 
     /// Copies the candidates of one row of a cell: rows in the order of the global bins, images in their place.
     template <class T>
-    static void gather(Candidates& near, Index<Dim> const& corner, Places<T> const& source, Binning<Dim> const& of,
+    static void gather(Candidates& near, Index<Dim> const& corner, Places<Dim, T> const& source, Binning<Dim> const& of,
                        Grid<Dim> const& grid)
     {
         const int reach_x = grid.finer(), nx = grid.bins_of_cell(0) + 2 * reach_x;
@@ -384,7 +370,7 @@ private:
     }
     template <class T>
     static void copy(Candidates& near, std::int32_t j0, std::int32_t j1, int code, Index<Dim> const& corner,
-                     Places<T> const& source, Binning<Dim> const& of, Grid<Dim> const& grid)
+                     Places<Dim, T> const& source, Binning<Dim> const& of, Grid<Dim> const& grid)
     {
         const std::size_t n = std::size_t(j1 - j0), o = near.count;
         near.count += n;

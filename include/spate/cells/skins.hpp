@@ -6,6 +6,7 @@
 
 #include "spate/cells/binning.hpp"
 
+#include <atomic>
 #include <span>
 
 namespace spate {
@@ -141,6 +142,103 @@ private:
     std::vector<std::int32_t> begin_{0}, near_;
     std::vector<double> skin_;
     double uniform_ = 0, least_ = 0;
+};
+
+/// Boxes of vectors: in each patch of the mobile particles, and of all markers.
+template <int Dim>
+struct Spreads {
+    std::vector<Spread<Dim>> mobile;
+    Spread<Dim> markers;
+};
+
+/// The skins of all targets: species 0 moves, species 1 is its markers, which meet it and not each other.
+template <int Dim, int Species>
+class LocalSkins {
+public:
+    [[nodiscard]] Skins<Dim> const& of(int species) const { return skins_[std::size_t(species)]; }
+    [[nodiscard]] double least() const
+    {
+        double least = skins_[0].least();
+        for (auto const& skins : skins_) least = std::min(least, skins.least());
+        return least;
+    }
+    /// The same skin everywhere.
+    void use(double skin)
+    {
+        for (auto& skins : skins_) skins.use(skin);
+    }
+    /// Who is near whom, once particles are sorted. \param markers  null: there are none
+    void look_around(Grid<Dim> const& grid, Binning<Dim> const& mobile, [[maybe_unused]] Binning<Dim> const* markers)
+    {
+        skins_[0].look_around(mobile, mobile, grid);
+        by_marker_.assign(skins_[0].patches(), 0);
+        if constexpr (Species == 2) {
+            skins_[1].look_around(*markers, mobile, grid);
+            for (std::size_t p = 0; p < skins_[1].patches(); ++p)
+                for (auto const g : skins_[1].near(p)) by_marker_[std::size_t(g)] = 1;
+        }
+    }
+    /// add(box, i) adds the vectors of mobile particle i to the box of its patch.
+    [[nodiscard]] Spreads<Dim> spreads(Grid<Dim> const& grid, Binning<Dim> const& mobile, Spread<Dim> const& markers,
+                                       auto const& add, auto const& backend) const
+    {
+        Spreads<Dim> of{std::vector<Spread<Dim>>(skins_[0].patches()), markers};
+        in_tasks(of.mobile.size(), backend, [&](std::size_t p) {
+            const auto here = Skins<Dim>::particles_of(mobile, p, grid);
+            for (auto i = here.first; i < here.last; ++i) add(of.mobile[p], std::size_t(i));
+        });
+        return of;
+    }
+    /// Skins in proportion to how far apart velocities are, the whole one where that is most.
+    void use(double skin, Spreads<Dim> const& velocities)
+    {
+        std::array<std::vector<double>, std::size_t(Species)> speed;
+        double fastest = 0;
+        for (std::size_t s = 0; s < speed.size(); ++s) {
+            speed[s].resize(skins_[s].patches());
+            for (std::size_t p = 0; p < speed[s].size(); ++p) {
+                speed[s][p] = differ(s, p, velocities);
+                fastest = std::max(fastest, speed[s][p]);
+            }
+        }
+        for (std::size_t s = 0; s < speed.size(); ++s) skins_[s].use(skin, speed[s], fastest);
+    }
+    /// Whether in any patch displacements differ by more than its skin, `more` [m] left for what is to come.
+    [[nodiscard]] bool outrun(Spreads<Dim> const& displacements, double range, double more, auto const& backend) const
+    {
+        std::atomic<bool> any = false;
+        for (std::size_t s = 0; s < skins_.size(); ++s)
+            in_tasks(skins_[s].patches(), backend, [&](std::size_t p) {
+                if (!any && !(differ(s, p, displacements) + more <= skins_[s].of(p) * range)) any = true;
+            });
+        return any;
+    }
+    [[nodiscard]] std::size_t bytes() const
+    {
+        std::size_t b = by_marker_.capacity();
+        for (auto const& skins : skins_) b += skins.bytes();
+        return b;
+    }
+
+private:
+    static void in_tasks(std::size_t patches, auto const& backend, auto const& f)
+    {
+        constexpr std::size_t some = 512; // patches in a task
+        backend.for_each((patches + some - 1) / some, [&](std::size_t task) {
+            for (std::size_t p = task * some, end = std::min(patches, p + some); p < end; ++p) f(p);
+        });
+    }
+    /// By how much the vectors of pairs with a target in a patch may differ.
+    [[nodiscard]] double differ(std::size_t s, std::size_t patch, Spreads<Dim> const& spread) const
+    {
+        Spread<Dim> all;
+        for (auto const g : skins_[s].near(patch)) all |= spread.mobile[std::size_t(g)];
+        if (s == 1 ? !skins_[s].near(patch).empty() : by_marker_[patch] != 0) all |= spread.markers;
+        return all.diagonal();
+    }
+
+    std::array<Skins<Dim>, std::size_t(Species)> skins_;
+    std::vector<char> by_marker_; ///< of each patch of the mobile particles: whether markers are near
 };
 
 } // namespace spate

@@ -60,7 +60,8 @@ template <int Dim>
 } // namespace detail
 
 /// History{directory, 0.001, Front{...}, Probe{...}}: an output of Simulation::run. A column is anything with a name that,
-/// called with the scene, returns a number or a vector, or a range of such columns. Rows grow in history.csv.tmp and are history.csv when the run ends.
+/// called with the scene, returns a number or a vector, or a range of such columns. Rows grow in history.csv.tmp and are
+/// history.csv when the run ends.
 template <class... Column>
 class History {
 public:

@@ -13,8 +13,8 @@
 
 namespace spate {
 
-/// The records of one species as a source: record i at data + i * stride, which is what lists hold; record n is the sentinel, out of everyone's
-/// range; images follow.
+/// The records of one species as a source: record i at data + i * stride, which is what lists hold; record n is the
+/// sentinel, out of everyone's range; images follow.
 template <int Dim, Real T, class S>
 struct Packed {
     using L = Layout<Dim, S>;

@@ -7,52 +7,14 @@
 #include "spate/cells/pair_memory.hpp"
 #include "spate/core/precision.hpp"
 #include "spate/core/reduction.hpp"
+#include "spate/physics/extremes.hpp"
 #include "spate/physics/model.hpp"
 #include "spate/physics/sweep.hpp"
 
-#include <atomic>
 #include <functional>
 #include <mutex>
 
 namespace spate {
-
-/// Largest values over the mobile particles; NaN-safe by `poison`.
-struct Extremes {
-    double speed = 0;                                                         ///< max |v| [m/s]
-    double acceleration = 0;                                                  ///< max |a| [m/s^2]
-    double moved = 0;                                                         ///< max |x - x_build| [m]
-    std::array<double, 3> least_move = ends(1), most_move = ends(-1);         ///< of x - x_build by component [m]
-    std::array<double, 3> least_velocity = ends(1), most_velocity = ends(-1); ///< by component [m/s]
-    static constexpr std::array<double, 3> ends(int sign)
-    {
-        const double far = sign * std::numeric_limits<double>::max();
-        return {far, far, far};
-    }
-    double least_density = std::numeric_limits<double>::infinity(), most_density = 0; ///< [kg/m^3]
-
-    /// max |x - x_build| [m] and max |v| [m/s] of markers that move
-    double wall_moved = 0, wall_speed = 0;
-
-    double poison = 0; ///< 0, or NaN as soon as an evolving field or an acceleration is not finite
-
-    void operator|=(Extremes const& b)
-    {
-        speed = std::max(speed, b.speed);
-        acceleration = std::max(acceleration, b.acceleration);
-        moved = std::max(moved, b.moved);
-        for (std::size_t c = 0; c < 3; ++c) {
-            least_move[c] = std::min(least_move[c], b.least_move[c]);
-            most_move[c] = std::max(most_move[c], b.most_move[c]);
-            least_velocity[c] = std::min(least_velocity[c], b.least_velocity[c]);
-            most_velocity[c] = std::max(most_velocity[c], b.most_velocity[c]);
-        }
-        least_density = std::min(least_density, b.least_density);
-        most_density = std::max(most_density, b.most_density);
-        wall_moved = std::max(wall_moved, b.wall_moved);
-        wall_speed = std::max(wall_speed, b.wall_speed);
-        poison += b.poison;
-    }
-};
 
 template <class P, class B, class Workers, class Precision>
 class System {
@@ -135,7 +97,7 @@ public:
     template <int s>
     Skins<dim> const& skins() const
     {
-        return skins_[s];
+        return skins_.of(s);
     }
 
     // ---- neighbours
@@ -164,7 +126,7 @@ public:
             auto build = [&](auto... sources) {
                 const std::array<typename Lists<dim>::template From<T>, sizeof...(sources)> from{sources...};
                 Lists<dim>::build(places<s()>(), species<s()>().bins, grid_, width<V>, neighbours_.window, range,
-                                  skins_[s()], beyond, backend_, from);
+                                  skins_.of(s()), beyond, backend_, from);
             };
             constexpr bool meets_0 = M::planner.meet(s(), 0), meets_1 = species_count == 2 && M::planner.meet(s(), 1);
             if constexpr (meets_0 && meets_1) build(from<s(), 0>(), from<s(), 1>());
@@ -184,9 +146,7 @@ public:
     {
         if (!any_pairs || !have_lists_) return !have_lists_;
         const double range = physics_.interaction.range(), most = closing(e, t, t2);
-        double least = std::numeric_limits<double>::infinity();
-        for (auto const& skins : skins_) least = std::min(least, skins.least());
-        if (most <= least * range) return false;
+        if (most <= skins_.least() * range) return false;
         if (!neighbours_.local || !std::isfinite(most)) return true;
         return outrun(t, 2 * t2 * e.acceleration);
     }
@@ -312,7 +272,8 @@ public:
         auto const& p = mobile();
         const std::size_t n = p.size();
         backend_.for_each((n + task - 1) / task, [&](std::size_t k) {
-            const Extremes mine = extremes_of<with_acceleration>(k * task, std::min(n, (k + 1) * task));
+            const Extremes mine =
+                extremes_of<V, with_acceleration>(p, k * task, std::min(n, (k + 1) * task), M::template evolving<0>());
             const std::lock_guard hold(lock);
             e |= mine;
         });
@@ -389,7 +350,7 @@ public:
             b += x.particles.bytes() + x.start.bytes() + x.bins.bytes() + x.packed.data.capacity() * sizeof(T);
         });
         for (auto const& l : lists_) b += l.bytes();
-        for (auto const& skins : skins_) b += skins.bytes();
+        b += skins_.bytes();
         return b;
     }
     /// Sum modulo 2^64 over all particles of a hash of (species, id, bits of the evolving fields), and over all pairs of
@@ -707,7 +668,7 @@ private:
     template <int s>
     auto places() const
     {
-        return Lists<dim>::template Places<T>::of(species<s>().particles);
+        return Places<dim, T>::of(species<s>().particles);
     }
     template <int s, int q, Mask terms>
     auto source()
@@ -752,63 +713,14 @@ private:
     /// Where velocities differ lists reach far; see Skins.
     void choose_skins(bool wide)
     {
-        for (auto& skins : skins_) skins.use(neighbours_.closed_in());
+        skins_.use(neighbours_.closed_in());
         if (!neighbours_.local || !any_pairs) return;
-        each_species([&](auto s) { skins_[s()].look_around(species<s()>().bins, species<0>().bins, grid_); });
-        if constexpr (M::markers) {
-            by_marker_.assign(skins_[0].patches(), 0);
-            for (std::size_t p = 0; p < skins_[1].patches(); ++p)
-                for (auto const g : skins_[1].near(p)) by_marker_[std::size_t(g)] = 1;
-        }
+        if constexpr (M::markers) skins_.look_around(grid_, species<0>().bins, &species<1>().bins);
+        else skins_.look_around(grid_, species<0>().bins, nullptr);
         if (wide) return;
-        const auto spread = spreads([](auto& box, auto const& p, std::size_t i) {
-            for (int c = 0; c < dim; ++c) box.add(c, double(p.column(velocity)[std::size_t(c)][i]));
-        });
-        std::array<std::vector<double>, std::size_t(species_count)> speed;
-        double fastest = 0;
-        each_species([&](auto s) {
-            auto& of = speed[s()];
-            of.resize(skins_[s()].patches());
-            for (std::size_t p = 0; p < of.size(); ++p) {
-                of[p] = differ<s()>(spread, p);
-                fastest = std::max(fastest, of[p]);
-            }
-        });
-        each_species([&](auto s) { skins_[s()].use(neighbours_.closed_in(), speed[s()], fastest); });
-    }
-    /// Boxes of vectors: in each patch of the mobile particles, and of all markers.
-    struct Spreads {
-        std::vector<Spread<dim>> mobile;
-        Spread<dim> markers;
-    };
-    /// add(box, particles, i) adds the vectors of a particle.
-    [[nodiscard]] Spreads spreads(auto const& add) const
-    {
-        Spreads of{std::vector<Spread<dim>>(skins_[0].patches()), {}};
-        constexpr std::size_t some = 512; // patches in a task
-        backend_.for_each((of.mobile.size() + some - 1) / some, [&](std::size_t task) {
-            for (std::size_t p = task * some, end = std::min(of.mobile.size(), p + some); p < end; ++p) {
-                const auto here = Skins<dim>::particles_of(species<0>().bins, p, grid_);
-                for (auto i = here.first; i < here.last; ++i) add(of.mobile[p], mobile(), std::size_t(i));
-            }
-        });
-        if constexpr (M::moves) {
-            auto const& markers = species<1>().particles;
-            for (std::size_t i = 0; i < markers.size(); ++i) add(of.markers, markers, i);
-        }
-        else
-            for (int c = 0; c < dim; ++c) of.markers.add(c, 0); // they stand still
-        return of;
-    }
-    /// By how much the vectors of pairs with a target in a patch may differ.
-    template <int s>
-    [[nodiscard]] double differ(Spreads const& spread, std::size_t patch) const
-    {
-        Spread<dim> all;
-        for (auto const g : skins_[s].near(patch)) all |= spread.mobile[std::size_t(g)];
-        if constexpr (M::markers)
-            if (s == 1 ? !skins_[s].near(patch).empty() : by_marker_[patch] != 0) all |= spread.markers;
-        return all.diagonal();
+        skins_.use(neighbours_.closed_in(), spreads([](auto& box, auto const& p, std::size_t i) {
+                       for (int c = 0; c < dim; ++c) box.add(c, double(p.column(velocity)[std::size_t(c)][i]));
+                   }));
     }
     /// Whether a pair of any patch may have closed in by more than its skin at positions up to x + v t and `more` [m].
     [[nodiscard]] bool outrun(double t, double more) const
@@ -822,17 +734,20 @@ private:
                     box.add(c, moved + t * double(p.column(transport_velocity)[k][i]));
             }
         });
-        std::atomic<bool> any = false;
-        const double range = physics_.interaction.range();
-        each_species([&](auto s) {
-            auto const& skins = skins_[s()];
-            constexpr std::size_t some = 512; // patches in a task
-            backend_.for_each((skins.patches() + some - 1) / some, [&](std::size_t task) {
-                for (std::size_t p = task * some, end = std::min(skins.patches(), p + some); p < end && !any; ++p)
-                    if (!(differ<s()>(spread, p) + more <= skins.of(p) * range)) any = true;
-            });
-        });
-        return any;
+        return skins_.outrun(spread, physics_.interaction.range(), more, backend_);
+    }
+    /// The boxes of vectors; add(box, particles, i) adds those of a particle.
+    [[nodiscard]] Spreads<dim> spreads(auto const& add) const
+    {
+        Spread<dim> markers;
+        if constexpr (M::moves) {
+            auto const& p = species<1>().particles;
+            for (std::size_t i = 0; i < p.size(); ++i) add(markers, p, i);
+        }
+        else
+            for (int c = 0; c < dim; ++c) markers.add(c, 0); // they stand still
+        return skins_.spreads(
+            grid_, species<0>().bins, markers, [&](auto& box, std::size_t i) { add(box, mobile(), i); }, backend_);
     }
     void wrap()
     {
@@ -851,64 +766,6 @@ private:
                     if (!(double(value) < grid_.box().hi[c])) value = T(grid_.box().lo[c]); // rounded up in T
                 }
     }
-    template <bool with_acceleration>
-    [[nodiscard]] Extremes extremes_of(std::size_t first, std::size_t last) const
-    {
-        auto const& p = mobile();
-        using Q = ParticlesOf<0>;
-        Vec<dim, V> least_x{}, most_x{}, least_v{}, most_v{};
-        for (int c = 0; c < dim; ++c) {
-            least_x[c] = least_v[c] = V(std::numeric_limits<T>::max());
-            most_x[c] = most_v[c] = V(std::numeric_limits<T>::lowest());
-        }
-        V v2(0), a2(0), x2(0), least(std::numeric_limits<T>::max()), most(0), poison(0);
-        constexpr auto W = std::size_t(width<V>);
-        const int lanes = int(std::min(last, W)); // padding has no say: what it holds depends on who is last
-        for (std::size_t k = first; k < last; k += W) {
-            const std::size_t i = std::min(k, last - std::size_t(lanes)); // the last pack overlaps the one before
-            const auto x = p.template load_at<V>(position, i);
-            const auto v = p.template load_at<V>(velocity, i);
-            const auto moved = x - p.template load_at<V>(build_position, i);
-            const V d2 = moved.squaredNorm(), s2 = v.squaredNorm();
-            x2 = max(d2, x2), v2 = max(s2, v2);
-            for (int c = 0; c < dim; ++c) {
-                least_x[c] = min(moved[c], least_x[c]), most_x[c] = max(moved[c], most_x[c]);
-                least_v[c] = min(v[c], least_v[c]), most_v[c] = max(v[c], most_v[c]);
-            }
-            poison += V(0) * (d2 + s2);
-            if constexpr (with_acceleration && Q::template has<Acceleration>) {
-                const V n2 = p.template load_at<V>(acceleration, i).squaredNorm();
-                a2 = max(n2, a2), poison += V(0) * n2;
-            }
-            for_each(M::template evolving<0>() - Fields{position, velocity, density}, [&](auto f) {
-                const auto value = p.template load_at<V>(f, i);
-                if constexpr (decltype(f)::rank == 0) poison += V(0) * value;
-                else poison += V(0) * value.squaredNorm();
-            });
-            if constexpr (Q::template has<Density>) {
-                const V rho = p.template load_at<V>(density, i);
-                least = min(rho, least), most = max(rho, most), poison += V(0) * rho;
-            }
-        }
-        Extremes e;
-        e.speed = std::sqrt(double(largest(v2, lanes)));
-        e.acceleration = std::sqrt(double(largest(a2, lanes)));
-        e.moved = std::sqrt(double(largest(x2, lanes)));
-        for (int c = 0; c < dim; ++c) {
-            const auto k = std::size_t(c);
-            e.least_move[k] = -double(largest(V(V(0) - least_x[c]), lanes)),
-            e.most_move[k] = double(largest(most_x[c], lanes));
-            e.least_velocity[k] = -double(largest(V(V(0) - least_v[c]), lanes)),
-            e.most_velocity[k] = double(largest(most_v[c], lanes));
-        }
-        e.least_density = -double(largest(V(V(0) - least), lanes));
-        e.most_density = double(largest(most, lanes));
-        alignas(64) T lane[std::size_t(width<V>)];
-        store(lane, poison);
-        for (int k = 0; k < lanes; ++k) e.poison += double(lane[k]);
-        return e;
-    }
-
     P physics_;
     B boundary_;
     Workers backend_;
@@ -932,8 +789,7 @@ private:
     };
     typename AllMemory<std::make_integer_sequence<int, species_count * species_count>>::type aside_;
     std::array<std::vector<Array<T>>, std::size_t(species_count* species_count)> memory_; ///< of pairs, by cell
-    std::array<Skins<dim>, std::size_t(species_count)> skins_;
-    std::vector<char> by_marker_; ///< of each patch of the mobile particles: whether markers are near
+    LocalSkins<dim, species_count> skins_;
     bool have_lists_ = false, sorted_markers_ = false, kick_rates_ = false;
     std::int64_t rebuilds_ = 0, evaluations_ = 0, pairs_evaluated_ = 0;
 };

@@ -9,15 +9,22 @@
 
 namespace spate {
 
+namespace detail {
+template <class... Solid>
+void check_solids(Solid const&... solid)
+{
+    auto one = [](auto const& s) {
+        if constexpr (requires { s.check(); }) s.check();
+    };
+    (one(solid), ...);
+}
+} // namespace detail
+
 template <class A, class B>
 struct Union {
     A a;
     B b;
-    void check() const
-    {
-        if constexpr (requires { a.check(); }) a.check();
-        if constexpr (requires { b.check(); }) b.check();
-    }
+    void check() const { detail::check_solids(a, b); }
     template <int Dim>
     [[nodiscard]] double distance(Vec<Dim, double> const& x) const
     {
@@ -28,11 +35,7 @@ template <class A, class B>
 struct Intersection {
     A a;
     B b;
-    void check() const
-    {
-        if constexpr (requires { a.check(); }) a.check();
-        if constexpr (requires { b.check(); }) b.check();
-    }
+    void check() const { detail::check_solids(a, b); }
     template <int Dim>
     [[nodiscard]] double distance(Vec<Dim, double> const& x) const
     {
@@ -42,10 +45,7 @@ struct Intersection {
 template <class A>
 struct InsideOut {
     A a;
-    void check() const
-    {
-        if constexpr (requires { a.check(); }) a.check();
-    }
+    void check() const { detail::check_solids(a); }
     template <int Dim>
     [[nodiscard]] double distance(Vec<Dim, double> const& x) const
     {

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief Largest values over particles: what the time step, the neighbour lists and the watch ask of a state.
+#pragma once
+
+#include "spate/core/fields.hpp"
+#include "spate/core/pack.hpp"
+#include "spate/core/particles.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace spate {
+
+/// Largest values over the mobile particles; NaN-safe by `poison`.
+struct Extremes {
+    double speed = 0;                                                         ///< max |v| [m/s]
+    double acceleration = 0;                                                  ///< max |a| [m/s^2]
+    double moved = 0;                                                         ///< max |x - x_build| [m]
+    std::array<double, 3> least_move = ends(1), most_move = ends(-1);         ///< of x - x_build by component [m]
+    std::array<double, 3> least_velocity = ends(1), most_velocity = ends(-1); ///< by component [m/s]
+    static constexpr std::array<double, 3> ends(int sign)
+    {
+        const double far = sign * std::numeric_limits<double>::max();
+        return {far, far, far};
+    }
+    double least_density = std::numeric_limits<double>::infinity(), most_density = 0; ///< [kg/m^3]
+
+    double wall_moved = 0; ///< max |x - x_build| of markers that move [m]
+    double wall_speed = 0; ///< max |v| of them [m/s]
+
+    double poison = 0; ///< 0, or NaN as soon as an evolving field or an acceleration is not finite
+
+    /// The same of particles that have not moved since the lists were built.
+    [[nodiscard]] Extremes unmoved() const
+    {
+        Extremes e = *this;
+        e.moved = e.wall_moved = 0, e.least_move = {}, e.most_move = {};
+        return e;
+    }
+    void operator|=(Extremes const& b)
+    {
+        speed = std::max(speed, b.speed);
+        acceleration = std::max(acceleration, b.acceleration);
+        moved = std::max(moved, b.moved);
+        for (std::size_t c = 0; c < 3; ++c) {
+            least_move[c] = std::min(least_move[c], b.least_move[c]);
+            most_move[c] = std::max(most_move[c], b.most_move[c]);
+            least_velocity[c] = std::min(least_velocity[c], b.least_velocity[c]);
+            most_velocity[c] = std::max(most_velocity[c], b.most_velocity[c]);
+        }
+        least_density = std::min(least_density, b.least_density);
+        most_density = std::max(most_density, b.most_density);
+        wall_moved = std::max(wall_moved, b.wall_moved);
+        wall_speed = std::max(wall_speed, b.wall_speed);
+        poison += b.poison;
+    }
+};
+
+/// Of the particles first to last.
+/// \tparam V  pack    \tparam with_acceleration  whether anyone asks for max |a|    \param evolving  fields that must be finite
+template <class V, bool with_acceleration, class Q>
+[[nodiscard]] Extremes extremes_of(Q const& p, std::size_t first, std::size_t last, auto evolving)
+{
+    constexpr int dim = Q::dim;
+    using T = scalar_t<V>;
+    Vec<dim, V> least_x{}, most_x{}, least_v{}, most_v{};
+    for (int c = 0; c < dim; ++c) {
+        least_x[c] = least_v[c] = V(std::numeric_limits<T>::max());
+        most_x[c] = most_v[c] = V(std::numeric_limits<T>::lowest());
+    }
+    V v2(0), a2(0), x2(0), least(std::numeric_limits<T>::max()), most(0), poison(0);
+    constexpr auto W = std::size_t(width<V>);
+    const int lanes = int(std::min(last, W)); // padding has no say: what it holds depends on who is last
+    for (std::size_t k = first; k < last; k += W) {
+        const std::size_t i = std::min(k, last - std::size_t(lanes)); // the last pack overlaps the one before
+        const auto x = p.template load_at<V>(position, i);
+        const auto v = p.template load_at<V>(velocity, i);
+        const auto moved = x - p.template load_at<V>(build_position, i);
+        const V d2 = moved.squaredNorm(), s2 = v.squaredNorm();
+        x2 = max(d2, x2), v2 = max(s2, v2);
+        for (int c = 0; c < dim; ++c) {
+            least_x[c] = min(moved[c], least_x[c]), most_x[c] = max(moved[c], most_x[c]);
+            least_v[c] = min(v[c], least_v[c]), most_v[c] = max(v[c], most_v[c]);
+        }
+        poison += V(0) * (d2 + s2);
+        if constexpr (with_acceleration && Q::template has<Acceleration>) {
+            const V n2 = p.template load_at<V>(acceleration, i).squaredNorm();
+            a2 = max(n2, a2), poison += V(0) * n2;
+        }
+        for_each(evolving - Fields{position, velocity, density}, [&](auto f) {
+            const auto value = p.template load_at<V>(f, i);
+            if constexpr (decltype(f)::rank == 0) poison += V(0) * value;
+            else poison += V(0) * value.squaredNorm();
+        });
+        if constexpr (Q::template has<Density>) {
+            const V rho = p.template load_at<V>(density, i);
+            least = min(rho, least), most = max(rho, most), poison += V(0) * rho;
+        }
+    }
+    Extremes e;
+    e.speed = std::sqrt(double(largest(v2, lanes)));
+    e.acceleration = std::sqrt(double(largest(a2, lanes)));
+    e.moved = std::sqrt(double(largest(x2, lanes)));
+    for (int c = 0; c < dim; ++c) {
+        const auto k = std::size_t(c);
+        e.least_move[k] = -double(largest(V(V(0) - least_x[c]), lanes)),
+        e.most_move[k] = double(largest(most_x[c], lanes));
+        e.least_velocity[k] = -double(largest(V(V(0) - least_v[c]), lanes)),
+        e.most_velocity[k] = double(largest(most_v[c], lanes));
+    }
+    e.least_density = -double(largest(V(V(0) - least), lanes));
+    e.most_density = double(largest(most, lanes));
+    alignas(64) T lane[std::size_t(width<V>)];
+    store(lane, poison);
+    for (int k = 0; k < lanes; ++k) e.poison += double(lane[k]);
+    return e;
+}
+
+} // namespace spate
