@@ -46,7 +46,7 @@ done
 [[ $long == yes ]] || arguments+=(-LE '^long$')
 
 needs=(--with tests)
-[[ $preset != clang && $preset != tsan ]] || needs+=(--with clang)
+[[ $preset == gcc ]] || needs+=(--with clang)
 bash tools/setup.sh "${needs[@]}"
 
 # Two jobs at most: one may take a gigabyte.

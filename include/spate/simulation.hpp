@@ -6,6 +6,7 @@
 #include "spate/backend/backend.hpp"
 #include "spate/backend/serial.hpp"
 #include "spate/boundary/boundary.hpp"
+#include "spate/boundary/motion.hpp"
 #include "spate/integrator/integrator.hpp"
 #include "spate/measure/nearest_image.hpp"
 #include "spate/measure/wall_force.hpp"

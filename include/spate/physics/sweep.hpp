@@ -126,21 +126,20 @@ template <class V, class I, class Tuple, class Ri, class Ui, class A, class Src>
     const auto uj = source.particles.template uniforms<V>();
     auto const& lists = source.lists.of_cell(cell);
     scalar_t<V> const* base = source.packed.data.data();
-    std::int32_t const* index = lists.index.data() + std::size_t(lists.begin[block]) * std::size_t(width<V>);
-    std::int32_t const* end = lists.index.data() + std::size_t(lists.begin[block + 1]) * std::size_t(width<V>);
+    std::int32_t const* const index = lists.index.data();
+    const auto end = std::size_t(lists.begin[block + 1]) * std::size_t(width<V>);
     // The next block's first sight of a row of bins is a miss; its lanes share lines, so that one lane asks for all.
-    constexpr std::ptrdiff_t ahead = 48 * width<V>;
-    std::int32_t const* const last = lists.index.data() + lists.index.size() - 1;
+    constexpr std::size_t ahead = 48 * std::size_t(width<V>);
+    const std::size_t last = lists.index.size() - 1;
     A mine = sums; // a copy in registers: g++ would store sums to the stack with each pack
-    for (; index != end; index += width<V>) {
-        __builtin_prefetch(base + std::uint32_t(*std::min(index + ahead, last)));
-        const auto rj = gathered<V>(base, index, L{});
+    for (auto at = std::size_t(lists.begin[block]) * std::size_t(width<V>); at != end; at += std::size_t(width<V>)) {
+        __builtin_prefetch(base + std::uint32_t(index[std::min(at + ahead, last)]));
+        const auto rj = gathered<V>(base, index + at, L{});
         const auto ij = pair_of<I, V>(interaction, ri, ui, rj, uj);
         constexpr auto terms = std::make_index_sequence<std::tuple_size_v<Tuple>>{};
         if constexpr (Src::Kept::size > 0) {
             using Memory = Kept<I::dim, V, typename Src::Kept>;
-            const auto row = std::size_t(index - lists.index.data()) / std::size_t(width<V>);
-            Memory kept((*source.memory)[cell].data() + row * std::size_t(Memory::L::count * width<V>));
+            Memory kept((*source.memory)[cell].data() + at * std::size_t(Memory::L::count));
             apply_all<Src::terms>(all, ri, ui, rj, uj, mine, ij, terms, &kept.record);
             if constexpr (requires { ij.mask; }) kept.put_back(ij.mask);
             else kept.put_back();
