@@ -160,6 +160,7 @@ public:
         if (step_ == 0) check_places();
         system_.use(make_grid());
         system_.resized();
+        system_.distribute(step_ == 0);
         prepared_ = true;
     }
 
@@ -185,7 +186,7 @@ public:
         const std::int64_t last =
             o.steps > std::numeric_limits<std::int64_t>::max() - step_ ? o.steps : step_ + o.steps;
         try {
-            while (time_ < o.until && step_ < last && !interrupted_()) {
+            while (time_ < o.until && step_ < last && !interrupted()) {
                 step(o);
                 (output.step(*this), ...);
             }
@@ -205,6 +206,7 @@ public:
         if (!prepared_) prepare();
         const auto wall = std::chrono::steady_clock::now();
         const std::clock_t cpu = std::clock();
+        if constexpr (!Engine::alone) system_.wander(step_);
         Extremes e = system_.template extremes<needs_acceleration>();
         look(e);
         choose_dt(o, e);
@@ -311,6 +313,7 @@ private:
     }(static_cast<typename P::Terms const*>(nullptr));
     static constexpr bool needs_acceleration = has_equation_of_state<P> || I::ahead_acceleration > 0;
 
+    [[nodiscard]] bool interrupted() const { return system_.ranks().all(interrupted_(), agree::Or{}); }
     /// Walls that reflect what has gone through them.
     static constexpr bool reflects = requires(B const b, Point x, Point v) { b.reflect(x, v, 0.0); };
 
@@ -454,8 +457,8 @@ private:
                 if (bounce == B::Bounce::too_many) lost = true;
             }
         });
-        if (any) system_.forget_kick_rates();
-        if (lost) stop_lost();
+        if (system_.ranks().all(bool(any), agree::Or{})) system_.forget_kick_rates();
+        if (system_.ranks().all(bool(lost), agree::Or{})) stop_lost();
     }
     static double radius_of([[maybe_unused]] auto const& p, [[maybe_unused]] std::size_t i)
     {
@@ -527,6 +530,12 @@ private:
             for (std::size_t i = 0; i < p.size(); ++i)
                 for (int c = 0; c < dim; ++c)
                     lo[c] = i == 0 ? p.at(position, i)[c] : std::min(lo[c], p.at(position, i)[c]);
+            if constexpr (!Engine::alone) {
+                constexpr double nowhere = std::numeric_limits<double>::infinity();
+                const bool nobody = !system_.ranks().all(!p.empty(), agree::Or{});
+                for (int c = 0; c < dim && !nobody; ++c)
+                    lo[c] = system_.ranks().all(p.empty() ? nowhere : lo[c], agree::Least{});
+            }
             box = Box<dim>{lo, lo};
         }
         auto const& n = system_.neighbours();
@@ -581,6 +590,7 @@ private:
         if constexpr (has_equation_of_state<P>) {
             auto const& p = system_.mobile();
             if (!p.empty()) spacing = std::pow(p.at(mass, 0) / equation_of_state(physics()).rho0, 1.0 / dim);
+            spacing = system_.ranks().all(spacing, agree::Most{});
         }
         for (auto& warning : advice<I>(physics(), spacing, stiffness_, dt)) report_.warnings.push_back(warning);
     }

@@ -24,7 +24,7 @@ public:
     /// Takes what the lists hold.
     template <int Dim, class P, class Q>
     void take(Lists<Dim> const& lists, std::vector<Array<T>> const& memory, P const& target, Binning<Dim> const& at,
-              Q const& source, Binning<Dim> const& of, int W)
+              Q const& source, Binning<Dim> const& of, int W, Foreign<Dim, T> const* foreign = nullptr)
     {
         pairs_.clear();
         for (std::size_t cell = 0; cell < memory.size(); ++cell)
@@ -35,9 +35,9 @@ public:
                     p.value[std::size_t(c)] = memory[cell][place(row, c, W) + lane];
                     any = any || p.value[std::size_t(c)] != T(0);
                 }
-                const std::size_t j = number_of(lists, lists.of_cell(cell).index[slot], source.size(), of);
+                const std::size_t j = lists.number(lists.of_cell(cell).index[slot]);
                 if (!any || j == source.size()) return;
-                p.i = target.id()[std::size_t(at.begin(cell) + t)], p.j = source.id()[j];
+                p.i = target.id()[std::size_t(at.begin(cell) + t)], p.j = id_of(j, source, of, foreign);
                 pairs_.push_back(p);
             });
         std::sort(pairs_.begin(), pairs_.end(), before);
@@ -45,15 +45,15 @@ public:
     /// Gives it back to new lists; pairs that are in no list any more are forgotten, new ones begin at zero.
     template <int Dim, class P, class Q>
     void give(Lists<Dim> const& lists, std::vector<Array<T>>& memory, P const& target, Binning<Dim> const& at,
-              Q const& source, Binning<Dim> const& of, int W) const
+              Q const& source, Binning<Dim> const& of, int W, Foreign<Dim, T> const* foreign = nullptr) const
     {
         memory.resize(at.cells());
         for (std::size_t cell = 0; cell < memory.size(); ++cell) {
             memory[cell].assign(lists.of_cell(cell).index.size() * std::size_t(Count), T(0));
             each_slot(lists.of_cell(cell), W, [&](std::size_t slot, std::size_t row, std::size_t lane, std::int32_t t) {
-                const std::size_t j = number_of(lists, lists.of_cell(cell).index[slot], source.size(), of);
+                const std::size_t j = lists.number(lists.of_cell(cell).index[slot]);
                 if (j == source.size()) return;
-                const Pair key{target.id()[std::size_t(at.begin(cell) + t)], source.id()[j], {}};
+                const Pair key{target.id()[std::size_t(at.begin(cell) + t)], id_of(j, source, of, foreign), {}};
                 const auto found = std::lower_bound(pairs_.begin(), pairs_.end(), key, before);
                 if (found == pairs_.end() || found->i != key.i || found->j != key.j) return;
                 for (int c = 0; c < Count; ++c) memory[cell][place(row, c, W) + lane] = found->value[std::size_t(c)];
@@ -61,6 +61,16 @@ public:
         }
     }
     [[nodiscard]] std::vector<Pair> const& pairs() const { return pairs_; }
+    /// The pairs whose target goes elsewhere are no more here; leave(pair) says so and sees to them.
+    void part(auto const& leave)
+    {
+        std::erase_if(pairs_, [&](Pair const& p) { return leave(p); });
+    }
+    void join(std::vector<Pair> const& pairs)
+    {
+        pairs_.insert(pairs_.end(), pairs.begin(), pairs.end());
+        std::sort(pairs_.begin(), pairs_.end(), before);
+    }
 
     /// Where component c of a row of W slots begins.
     static std::size_t place(std::size_t row, int c, int W)
@@ -78,12 +88,14 @@ private:
                 for (std::size_t lane = 0; lane < std::size_t(W); ++lane)
                     f(row * std::size_t(W) + lane, row, lane, lists.target[b * std::size_t(W) + lane]);
     }
-    /// The particle behind an entry: of an image the particle itself; the number of particles for the sentinel.
-    template <int Dim>
-    static std::size_t number_of(Lists<Dim> const& lists, std::int32_t entry, std::size_t n, Binning<Dim> const& of)
+    /// The particle behind a record other than the sentinel: of an image the particle itself.
+    template <int Dim, class Q>
+    static std::uint32_t id_of(std::size_t j, Q const& source, Binning<Dim> const& of, Foreign<Dim, T> const* foreign)
     {
-        const std::size_t j = lists.number(entry);
-        return j <= n ? j : std::size_t(of.images().of[j - n - 1]);
+        const std::size_t n = source.size();
+        if (j < n) return source.id()[j];
+        if (!foreign || j < std::size_t(foreign->first)) return source.id()[std::size_t(of.images().of[j - n - 1])];
+        return (*foreign->ids)[foreign->number_of(j)];
     }
 
     std::vector<Pair> pairs_;

@@ -6,7 +6,9 @@
 
 #include "spate/cells/pair_memory.hpp"
 #include "spate/core/precision.hpp"
+#include "spate/core/ranks.hpp"
 #include "spate/core/reduction.hpp"
+#include "spate/physics/decomposition.hpp"
 #include "spate/physics/extremes.hpp"
 #include "spate/physics/model.hpp"
 #include "spate/physics/sweep.hpp"
@@ -40,10 +42,16 @@ public:
         Particles<dim, T, Set<M::template evolving<s>()>, Fields<>> start; ///< of the step, for integrators that save
     };
 
+    /// Those who share the scene: the backend's ranks, or nobody.
+    using Party = decltype(ranks_of(std::declval<Workers const&>()));
+    static constexpr bool alone = Party::alone;
+    using Parts = std::conditional_t<alone, Undivided, Decomposition<dim, T, species_count, Party>>;
+
     /// \param saves  whether the integrator needs the start of the step
     System(P physics, B boundary, Workers backend, Neighbours neighbours, bool saves)
         : physics_(std::move(physics)), boundary_(std::move(boundary)), backend_(backend), neighbours_(neighbours),
-          saves_(saves), grid_({}, Edges<dim>(Edge::open), 1, 1, 1), terms_(M::terms_of(physics_, boundary_))
+          saves_(saves), grid_({}, Edges<dim>(Edge::open), 1, 1, 1), terms_(M::terms_of(physics_, boundary_)),
+          parts_(ranks_of(backend_))
     {
         for_each(P::uniform, [&](auto f) { mobile().value(f) = physics_.uniforms[f]; });
     }
@@ -67,12 +75,26 @@ public:
         [&]<int... s>(std::integer_sequence<int, s...>) { (f(std::integral_constant<int, s>{}), ...); }
         (std::make_integer_sequence<int, species_count>{});
     }
+    /// Particles on all ranks.
     [[nodiscard]] std::size_t total() const
     {
         std::size_t n = 0;
-        each_species([&](auto s) { n += species<s()>().particles.size(); });
-        return n;
+        each_species([&](auto s) { n += counted<s()>(); });
+        return ranks().all(n, agree::Sum{});
     }
+    /// Of the particles here those that this rank counts where all ranks count: the first so many.
+    template <int s>
+    [[nodiscard]] std::size_t counted() const
+    {
+        const std::size_t n = species<s>().particles.size();
+        if constexpr (alone) return n;
+        else return parts_.counted(s, n);
+    }
+    /// The ranks that share the scene.
+    [[nodiscard]] decltype(auto) ranks() const { return parts_.ranks(); }
+    /// How it is cut.
+    Parts const& parts() const { return parts_; }
+
     P const& physics() const { return physics_; }
     /// What the physics left open is known now: before the first evaluation.
     void complete(P physics)
@@ -106,39 +128,46 @@ public:
     void rebuild(bool wide = false)
     {
         wrap();
-        each_memory([&](auto s, auto q, auto& aside, auto& memory) {
-            if (have_lists_)
-                aside.take(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
-                           species<q()>().particles, species<q()>().bins, width<V>);
-        });
+        set_memory_aside();
+        if constexpr (!alone) {
+            each_species([&](auto s) { remember_places<s()>(); });
+            if (have_lists_ && balance_due()) cut_by_cost();
+            go_home(true);
+        }
         each_species([&](auto s) {
             auto& x = species<s()>();
             if (s() != 0 && sorted_markers_ && !M::moves) return;
             x.bins.sort(x.particles, grid_);
-            if constexpr (ParticlesOf<s()>::template has<BuildPosition>)
-                for (int c = 0; c < dim; ++c)
-                    x.particles.column(build_position)[std::size_t(c)] = x.particles.column(position)[std::size_t(c)];
+            remember_places<s()>();
         });
         sorted_markers_ = true;
+        if constexpr (!alone) meet_others();
         choose_skins(wide);
-        const double range = physics_.interaction.range(), beyond = neighbours_.skin - neighbours_.closed_in();
-        each_species([&](auto s) {
-            auto build = [&](auto... sources) {
-                const std::array<typename Lists<dim>::template From<T>, sizeof...(sources)> from{sources...};
-                Lists<dim>::build(places<s()>(), species<s()>().bins, grid_, width<V>, neighbours_.window, range,
-                                  skins_.of(s()), beyond, backend_, from);
-            };
-            constexpr bool meets_0 = M::planner.meet(s(), 0), meets_1 = species_count == 2 && M::planner.meet(s(), 1);
-            if constexpr (meets_0 && meets_1) build(from<s(), 0>(), from<s(), 1>());
-            else if constexpr (meets_0) build(from<s(), 0>());
-            else if constexpr (meets_1) build(from<s(), 1>());
-        });
-        each_memory([&](auto s, auto q, auto& aside, auto& memory) {
-            aside.give(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
-                       species<q()>().particles, species<q()>().bins, width<V>);
-        });
-        have_lists_ = true;
+        build_lists();
         ++rebuilds_;
+    }
+    /// Gives cells to other ranks by new cuts; lists, their skins, and when they are built anew stay as they are.
+    void redistribute(Shares<dim> shares)
+    {
+        set_memory_aside();
+        parts_.use(std::move(shares));
+        std::array<std::vector<double>, std::size_t(species_count)> skin;
+        each_species([&](auto s) { skin[std::size_t(s())] = skins_by_particle<s()>(); });
+        go_home(true, &skin);
+        each_species([&](auto s) {
+            auto& x = species<s()>();
+            const auto patch = patches<s()>();
+            x.bins.sort(x.particles, grid_, built<s()>);
+            if (skins_.uniform()) return;
+            std::vector<double> of_patch(x.bins.cells() * Skins<dim>::patches_of_cell(grid_), neighbours_.closed_in());
+            for (std::size_t i = 0; i < patch.size(); ++i)
+                of_patch[number_of_patch(patch[i], x.bins, grid_)] = skin[std::size_t(s())][i];
+            skins_.restore(s(), std::move(of_patch));
+        });
+        sorted_markers_ = true;
+        meet_others();
+        if (neighbours_.local && any_pairs) look_around();
+        build_lists();
     }
     /// Whether lists may miss a pair of positions up to x + v t + a t2. Two mobile particles close in by no more than the
     /// diagonal of the box of all displacements, one on a marker by no more than the largest of them.
@@ -148,7 +177,7 @@ public:
         const double range = physics_.interaction.range(), most = closing(e, t, t2);
         if (most <= skins_.least() * range) return false;
         if (!neighbours_.local || !std::isfinite(most)) return true;
-        return outrun(t, 2 * t2 * e.acceleration);
+        return ranks().all(outrun(t, 2 * t2 * e.acceleration), agree::Or{});
     }
     /// The most by which a pair may have closed in at positions up to x + v t + a t2 [m].
     [[nodiscard]] double closing(Extremes const& e, double t, double t2) const
@@ -170,15 +199,10 @@ public:
     void keep_kick_rates() { kick_rates_ = true; }
     void forget_kick_rates() { kick_rates_ = false; }
     [[nodiscard]] std::int64_t rebuilds() const { return rebuilds_; }
-    /// Directed pairs within range when the lists were built.
-    [[nodiscard]] std::int64_t pairs() const
-    {
-        std::int64_t n = 0;
-        for (auto const& l : lists_) n += l.pairs();
-        return n;
-    }
+    /// Directed pairs within range when the lists were built, on all ranks.
+    [[nodiscard]] std::int64_t pairs() const { return ranks().all(pairs_here(), agree::Sum{}); }
     [[nodiscard]] std::int64_t evaluations() const { return evaluations_; }
-    [[nodiscard]] std::int64_t pairs_evaluated() const { return pairs_evaluated_; }
+    [[nodiscard]] std::int64_t pairs_evaluated() const { return ranks().all(pairs_evaluated_, agree::Sum{}); }
 
     // ---- rates
     /// Brings the rates of the asked fields up to date in every species that has them.
@@ -187,7 +211,7 @@ public:
     {
         static constexpr auto plan = M::template rates_plan<Fields<F...>>();
         run<plan>();
-        if constexpr (plan.sweeps() > 0) ++evaluations_, pairs_evaluated_ += pairs();
+        if constexpr (plan.sweeps() > 0) ++evaluations_, pairs_evaluated_ += pairs_here();
     }
     /// Brings what terms derive from the state (pressure, ...) up to date.
     void refresh()
@@ -277,27 +301,11 @@ public:
             const std::lock_guard hold(lock);
             e |= mine;
         });
-        if constexpr (M::moves) e |= wall_extremes();
-        return e;
+        if constexpr (M::moves) e |= wall_extremes_here();
+        return ranks().all(e, agree::Join{});
     }
     /// Of markers that move: how far since the lists were built, and how fast.
-    [[nodiscard]] Extremes wall_extremes() const
-    {
-        Extremes e;
-        std::mutex lock;
-        auto const& w = species<1>().particles;
-        backend_.for_each((w.size() + task - 1) / task, [&](std::size_t k) {
-            double moved2 = 0, speed2 = 0;
-            for (std::size_t i = k * task, end = std::min(w.size(), (k + 1) * task); i < end; ++i) {
-                moved2 = std::max(moved2, (w.at(position, i) - w.at(build_position, i)).squaredNorm());
-                speed2 = std::max(speed2, w.at(velocity, i).squaredNorm());
-            }
-            const std::lock_guard hold(lock);
-            e.wall_moved = std::max(e.wall_moved, std::sqrt(moved2));
-            e.wall_speed = std::max(e.wall_speed, std::sqrt(speed2));
-        });
-        return e;
-    }
+    [[nodiscard]] Extremes wall_extremes() const { return ranks().all(wall_extremes_here(), agree::Join{}); }
     /// The exact sum of f(i) over the mobile particles, whoever adds.
     double sum(auto const& f) const
     {
@@ -309,11 +317,11 @@ public:
     [[nodiscard]] double pair_energy() const
     {
         auto const& p = mobile();
-        auto const& images = species<0>().bins.images();
         const std::size_t n = p.size();
         ExactSum total;
         std::mutex lock;
-        if constexpr (M::planner.meet(0, 0) && has_pair_energy)
+        if constexpr (M::planner.meet(0, 0) && has_pair_energy) {
+            if constexpr (!alone) bring_records<0, M::mask(Interaction::reads & ParticlesOf<0>::fields)>();
             backend_.for_each(species<0>().bins.cells(), [&](std::size_t cell) {
                 auto const& lists = this->template lists<0, 0>().of_cell(cell);
                 const auto first = std::size_t(species<0>().bins.begin(cell));
@@ -329,8 +337,7 @@ public:
                             1;
                     const std::size_t i =
                         first + std::size_t(lists.target[block * std::size_t(width<V>) + slot % std::size_t(width<V>)]);
-                    auto ri = double_record(p, i), rj = double_record(p, j < n ? j : std::size_t(images.of[j - n - 1]));
-                    if (j > n) rj[position] += shift_of(images.code[j - n - 1], grid_);
+                    auto ri = double_record(p, i), rj = double_record_of(j);
                     const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, ui, rj, ui);
                     detail::each_in(terms_, [&](auto const& t) {
                         if constexpr (requires { t.energy(ij); }) mine.add(0.5 * t.energy(ij));
@@ -339,7 +346,8 @@ public:
                 const std::lock_guard hold(lock);
                 total += mine;
             });
-        return total.value();
+        }
+        return ranks().all(total, agree::Sum{}).value();
     }
     /// Bytes of all that is kept for the particles: columns, records, lists, bins.
     [[nodiscard, gnu::cold]] std::size_t bytes() const
@@ -360,7 +368,7 @@ public:
         std::uint64_t total = 0;
         each_species([&](auto s) {
             auto const& p = species<s()>().particles;
-            for (std::size_t i = 0; i < p.size(); ++i) {
+            for (std::size_t i = 0; i < counted<s()>(); ++i) {
                 std::uint64_t h = mix(mix(std::uint64_t(s()) + 1) + p.id()[i]);
                 for_each(M::template evolving<s()>(), [&](auto f) {
                     for (auto const& column : p.column(f)) {
@@ -379,7 +387,7 @@ public:
                     PairMemory<T, kept_values<s(), q()>> now;
                     now.take(lists<s(), q()>(), memory_[std::size_t(s() * species_count + q())],
                              species<s()>().particles, species<s()>().bins, species<q()>().particles,
-                             species<q()>().bins, width<V>);
+                             species<q()>().bins, width<V>, foreign<q()>());
                     for (auto const& pair : now.pairs()) {
                         std::uint64_t h =
                             mix(mix(mix(std::uint64_t(s() * species_count + q()) + 17) + pair.i) + pair.j);
@@ -393,7 +401,7 @@ public:
                 }
             });
         });
-        return total;
+        return ranks().all(total, agree::Sum{});
     }
     /// Makes room for the particles that have been added since.
     [[gnu::cold]] void resized()
@@ -404,6 +412,30 @@ public:
             x.particles.pad();
         });
         forget_lists();
+    }
+    /// Of what all ranks have been given alike each keeps its own. \param cut  by new cuts, of like numbers of particles
+    void distribute([[maybe_unused]] bool cut)
+    {
+        if constexpr (!alone) {
+            if (cut) cut_by_number();
+            go_home(false);
+        }
+    }
+    /// Tests move cells at every so many steps: cuts by a cost that has nothing to do with work.
+    void wander([[maybe_unused]] std::int64_t step)
+    {
+        if constexpr (!alone) {
+            if (backend_.balance.forced == 0 || step % backend_.balance.forced != 0 || !have_lists_) return;
+            std::vector<CellCost> cost;
+            each_species([&](auto s) {
+                auto const& bins = species<s()>().bins;
+                for (std::size_t k = 0; k < bins.cells(); ++k) {
+                    const auto key = along_curve<dim>(bins.cell(k));
+                    cost.push_back({key, std::int64_t(1 + mix(key + std::uint64_t(step)) % 8)});
+                }
+            });
+            redistribute(Shares<dim>::of_like_cost(std::move(cost), ranks()));
+        }
     }
     /// The grid of bins and cells; before the first evaluation.
     void use(Grid<dim> grid)
@@ -440,6 +472,29 @@ public:
     }
 
 private:
+    [[nodiscard]] std::int64_t pairs_here() const
+    {
+        std::int64_t n = 0;
+        for (auto const& l : lists_) n += l.pairs();
+        return n;
+    }
+    [[nodiscard]] Extremes wall_extremes_here() const
+    {
+        Extremes e;
+        std::mutex lock;
+        auto const& w = species<1>().particles;
+        backend_.for_each((w.size() + task - 1) / task, [&](std::size_t k) {
+            double moved2 = 0, speed2 = 0;
+            for (std::size_t i = k * task, end = std::min(w.size(), (k + 1) * task); i < end; ++i) {
+                moved2 = std::max(moved2, (w.at(position, i) - w.at(build_position, i)).squaredNorm());
+                speed2 = std::max(speed2, w.at(velocity, i).squaredNorm());
+            }
+            const std::lock_guard hold(lock);
+            e.wall_moved = std::max(e.wall_moved, std::sqrt(moved2));
+            e.wall_speed = std::max(e.wall_speed, std::sqrt(speed2));
+        });
+        return e;
+    }
     using Interaction = typename M::Interaction;
     static constexpr bool has_pair_energy = []<class... X>(std::tuple<X...> const*) {
         return (false || ... || requires { X::stores_energy; });
@@ -449,7 +504,7 @@ private:
     {
         ExactSum total;
         std::mutex lock;
-        const std::size_t n = mobile().size();
+        const std::size_t n = counted<0>();
         backend_.for_each((n + task - 1) / task, [&](std::size_t k) {
             std::array<double, task> addend;
             const std::size_t first = k * task, last = std::min(n, first + task);
@@ -459,7 +514,40 @@ private:
             const std::lock_guard hold(lock);
             total += mine;
         });
-        return total.value();
+        return ranks().all(total, agree::Sum{}).value();
+    }
+    /// Of the mobile particle behind a record other than the sentinel, as it is now.
+    auto double_record_of(std::size_t j) const
+    {
+        auto const& p = mobile();
+        auto const& images = species<0>().bins.images();
+        const std::size_t n = p.size();
+        if constexpr (!alone) {
+            auto const& foreign = parts_.foreign(0);
+            if (j >= std::size_t(foreign.first)) {
+                const std::size_t k = foreign.number_of(j), image = j - std::size_t(foreign.first);
+                auto r = packed_record(std::size_t(foreign.first) + k);
+                if (image != k)
+                    r[position] += shift_of(foreign.bins->images().code[image - foreign.places.size], grid_);
+                return r;
+            }
+        }
+        auto r = double_record(p, j < n ? j : std::size_t(images.of[j - n - 1]));
+        if (j > n) r[position] += shift_of(images.code[j - n - 1], grid_);
+        return r;
+    }
+    auto packed_record(std::size_t j) const
+    {
+        auto const& packed = species<0>().packed;
+        using L = typename std::remove_cvref_t<decltype(packed)>::L;
+        Record<dim, double, Set<(Interaction::reads & ParticlesOf<0>::fields)>> r;
+        for_each(r.fields, [&]<class F>(F f) {
+            T const* at = packed.data.data() + j * std::size_t(L::stride) + L::template offset<F>;
+            if constexpr (F::rank == 0) r[f] = double(*at);
+            else
+                for (int c = 0; c < dim; ++c) r[f][c] = double(at[c]);
+        });
+        return r;
     }
     static auto double_record(auto const& p, std::size_t i)
     {
@@ -580,7 +668,9 @@ private:
         auto& x = species<s>();
         using L = typename std::remove_cvref_t<decltype(x.packed)>::L;
         auto const& images = x.bins.images();
-        const std::size_t n = x.particles.size(), records = n + 1 + images.of.size();
+        const std::size_t n = x.particles.size();
+        std::size_t records = n + 1 + images.of.size();
+        if constexpr (!alone) parts_.finish(s), records += parts_.foreign(s).records();
         constexpr auto stride = std::size_t(L::stride);
         if (x.packed.data.size() != records * stride) x.packed.data.assign(records * stride, T(1));
         T* const data = x.packed.data.data();
@@ -600,6 +690,7 @@ private:
         for (std::size_t f = 0; f < stride && n > 0; ++f) data[n * stride + f] = data[f];
         for (std::size_t c = 0; c < std::size_t(dim); ++c)
             data[n * stride + at + c] = x.packed.far; // beyond every range
+        if constexpr (!alone) send_records<s, copied>();
         if (images.of.empty()) return;
         backend_.for_each((images.of.size() + task - 1) / task, [&](std::size_t k) {
             for (std::size_t g = k * task, end = std::min(images.of.size(), (k + 1) * task); g < end; ++g) {
@@ -609,6 +700,50 @@ private:
                 for (int c = 0; c < dim; ++c) to[at + std::size_t(c)] += T(shift[c]);
             }
         });
+    }
+    /// Sends fields of those records that others wait for, and takes theirs as they come.
+    template <int s, Mask copied>
+    void send_records()
+    {
+        using L = typename decltype(Species<s>::packed)::L;
+        static constexpr auto offset = [] {
+            std::array<std::size_t, std::size_t(Layout<dim, Set<M::template fields<copied>()>>::count)> o{};
+            std::size_t k = 0;
+            for_each(M::template fields<copied>(), [&]<class F>(F) {
+                for (int c = 0; c < components<F, dim>; ++c) o[k++] = std::size_t(L::template offset<F> + c);
+            });
+            return o;
+        }();
+        constexpr auto stride = std::size_t(L::stride), at = std::size_t(L::template offset<Position>);
+        T* const data = species<s>().packed.data.data();
+        auto const& foreign = parts_.foreign(s);
+        parts_.send(
+            s, offset.size(),
+            [&](std::int32_t i, T* to) {
+                T const* const from = data + std::size_t(i) * stride;
+                for (std::size_t k = 0; k < offset.size(); ++k) to[k] = from[offset[k]];
+            },
+            [this, data, &foreign](std::int32_t i, T const* from) {
+                T* const to = data + (std::size_t(foreign.first) + std::size_t(i)) * stride;
+                for (std::size_t k = 0; k < offset.size(); ++k) to[offset[k]] = from[k];
+                auto const& images = foreign.bins->images();
+                if (images.of.empty()) return;
+                for (auto g = images.first[std::size_t(i)]; g < images.first[std::size_t(i) + 1]; ++g) {
+                    T* const image =
+                        data + (std::size_t(foreign.first) + foreign.places.size + std::size_t(g)) * stride;
+                    std::copy_n(to, stride, image);
+                    const Vec<dim, double> shift = shift_of(images.code[std::size_t(g)], grid_);
+                    for (int c = 0; c < dim; ++c) image[at + std::size_t(c)] += T(shift[c]);
+                }
+            });
+    }
+    /// Records of a species with all that others own of it, outside of a plan.
+    template <int s, Mask copied>
+    void bring_records() const
+    {
+        auto& me = const_cast<System&>(*this); // records are no state
+        me.template pack<s, copied>();
+        me.parts_.finish(s);
     }
     template <int s, Mask terms, Mask allowed>
     void sweep()
@@ -620,9 +755,11 @@ private:
             using Sums = decltype(M::template fields<added(terms)>());
             using Target = decltype(M::template fields<read_of_target(terms, s)>());
             constexpr Mask itself = (allowed >> s) & 1 ? terms : Mask(0);
-            backend_.for_each(x.bins.cells(), [&](std::size_t cell) {
+            auto one = [&](std::size_t cell) {
                 sweep_cell<V, itself, Sums, Target>(physics_.interaction, terms_, x.particles, x.bins, cell, source...);
-            });
+            };
+            if constexpr (alone) backend_.for_each(x.bins.cells(), one);
+            else parts_.run(s, x.bins.cells(), (from_0 != 0 ? 1u : 0u) | (from_1 != 0 ? 2u : 0u), one, backend_);
         };
         if constexpr (from_0 != 0 && from_1 != 0) run_with(source<s, 0, from_0>(), source<s, 1, from_1>());
         else if constexpr (from_0 != 0) run_with(source<s, 0, from_0>());
@@ -662,13 +799,27 @@ private:
     auto from()
     {
         auto const& x = species<q>();
-        return typename Lists<dim>::template From<T>{lists_[std::size_t(s * species_count + q)], places<q>(), x.bins,
-                                                     Layout<dim, Set<M::template record<q>()>>::stride, s == q};
+        return typename Lists<dim>::template From<T>{
+            lists_[std::size_t(s * species_count + q)],        places<q>(), x.bins,
+            Layout<dim, Set<M::template record<q>()>>::stride, s == q,      foreign<q>()};
     }
+    /// Where particles of a species were when lists were built.
     template <int s>
     auto places() const
     {
-        return Places<dim, T>::of(species<s>().particles);
+        return Places<dim, T>::of(species<s>().particles, built<s>);
+    }
+    /// The field that says so. Alone it need not be looked up: lists are built where particles are.
+    template <int s>
+    static constexpr auto built = [] {
+        if constexpr (!alone && ParticlesOf<s>::template has<BuildPosition>) return build_position;
+        else return position;
+    }();
+    template <int q>
+    Foreign<dim, T> const* foreign() const
+    {
+        if constexpr (alone) return nullptr;
+        else return &parts_.foreign(q);
     }
     template <int s, int q, Mask terms>
     auto source()
@@ -710,17 +861,213 @@ private:
         for (std::size_t i = first; i < last; i += std::size_t(width<V>))
             store(y + i, V(load<V>(y0 + i) + V(dt) * load<V>(rate + i)));
     }
-    /// Where velocities differ lists reach far; see Skins.
+    void set_memory_aside()
+    {
+        each_memory([&](auto s, auto q, auto& aside, auto& memory) {
+            if (have_lists_)
+                aside.take(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
+                           species<q()>().particles, species<q()>().bins, width<V>, foreign<q()>());
+        });
+    }
+    template <int s>
+    void remember_places()
+    {
+        auto& p = species<s>().particles;
+        if constexpr (ParticlesOf<s>::template has<BuildPosition>)
+            for (int c = 0; c < dim; ++c) p.column(build_position)[std::size_t(c)] = p.column(position)[std::size_t(c)];
+    }
+    void build_lists()
+    {
+        const double range = physics_.interaction.range(), beyond = neighbours_.skin - neighbours_.closed_in();
+        each_species([&](auto s) {
+            auto build = [&](auto... sources) {
+                const std::array<typename Lists<dim>::template From<T>, sizeof...(sources)> from{sources...};
+                Lists<dim>::build(places<s()>(), species<s()>().bins, grid_, width<V>, neighbours_.window, range,
+                                  skins_.of(s()), beyond, backend_, from);
+            };
+            constexpr bool meets_0 = M::planner.meet(s(), 0), meets_1 = species_count == 2 && M::planner.meet(s(), 1);
+            if constexpr (meets_0 && meets_1) build(from<s(), 0>(), from<s(), 1>());
+            else if constexpr (meets_0) build(from<s(), 0>());
+            else if constexpr (meets_1) build(from<s(), 1>());
+        });
+        each_memory([&](auto s, auto q, auto& aside, auto& memory) {
+            aside.give(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
+                       species<q()>().particles, species<q()>().bins, width<V>, foreign<q()>());
+        });
+        have_lists_ = true;
+    }
+    void look_around()
+    {
+        auto others = [&]<int s>(std::integral_constant<int, s>) -> Binning<dim> const* {
+            if constexpr (alone) return nullptr;
+            else return &parts_.halo(s).bins();
+        };
+        constexpr std::integral_constant<int, 0> mobiles{};
+        if constexpr (M::markers) {
+            constexpr std::integral_constant<int, 1> of_walls{};
+            skins_.look_around(grid_, species<0>().bins, &species<1>().bins, others(mobiles), others(of_walls));
+        }
+        else skins_.look_around(grid_, species<0>().bins, nullptr, others(mobiles));
+    }
+
+    // ---- on many ranks
+    Index<dim> cell_at(auto const& p, auto field, std::size_t i) const
+    {
+        Index<dim> cell;
+        for (int c = 0; c < dim; ++c)
+            cell[std::size_t(c)] =
+                grid_.cell_of(c, grid_.bin(c, grid_.wrapped(c, double(p.column(field)[std::size_t(c)][i]))));
+        return cell;
+    }
+    /// Sends each particle, and what is kept of its pairs, to the owner of its cell.
+    /// \param as_built  by where it was when lists were built    \param extra  of each particle, goes along
+    void go_home(bool as_built, std::array<std::vector<double>, std::size_t(species_count)>* extra = nullptr)
+    {
+        std::array<std::vector<double>, std::size_t(species_count)> nothing;
+        if (!extra) extra = &nothing;
+        std::map<int, Message> to;
+        std::array<std::map<std::uint32_t, int>, std::size_t(species_count)> away;
+        bool markers_moved = false;
+        each_species([&](auto s) {
+            auto& p = species<s()>().particles;
+            std::vector<int> home(p.size());
+            Index<dim> last{};
+            for (std::size_t i = 0; i < home.size(); ++i) {
+                const Index<dim> cell = as_built ? cell_at(p, built<s()>, i) : cell_at(p, position, i);
+                home[i] = i > 0 && cell == last ? home[i - 1] : parts_.owner(cell);
+                last = cell;
+                if (home[i] != ranks().rank()) {
+                    if (i < parts_.owned(s())) away[std::size_t(s())][p.id()[i]] = home[i];
+                    if (s() == 1) markers_moved = true;
+                }
+            }
+            parts_.leave(s(), p, home, (*extra)[std::size_t(s())], to);
+        });
+        each_memory([&](auto s, auto q, auto& aside, auto&) {
+            using Pair = typename std::remove_cvref_t<decltype(aside)>::Pair;
+            std::map<int, std::vector<Pair>> gone;
+            auto const& of = away[std::size_t(s())];
+            aside.part([&](Pair const& pair) {
+                const auto it = of.find(pair.i);
+                if (it == of.end()) return false;
+                gone[it->second].push_back(pair);
+                return true;
+            });
+            for (auto const& [rank, pairs] : gone) {
+                to[rank].put(species_count + s() * species_count + q());
+                to[rank].put(pairs);
+            }
+        });
+        std::vector<Parcel> parcels;
+        for (auto& [rank, message] : to) parcels.push_back({rank, std::move(message)});
+        for (auto& parcel : ranks().scatter(std::move(parcels)))
+            while (!parcel.message.empty()) {
+                const int what = parcel.message.template take<int>();
+                each_species([&](auto s) {
+                    if (s() != what) return;
+                    parts_.arrive(s(), species<s()>().particles, (*extra)[std::size_t(s())], parcel.message);
+                    if (s() == 1) markers_moved = true;
+                });
+                each_memory([&](auto s, auto q, auto& aside, auto&) {
+                    using Pair = typename std::remove_cvref_t<decltype(aside)>::Pair;
+                    if (what == species_count + s() * species_count + q())
+                        aside.join(parcel.message.template take_all<Pair>());
+                });
+            }
+        if (markers_moved) sorted_markers_ = false;
+        each_species([&](auto s) {
+            auto& x = species<s()>();
+            if (saves_) x.start.resize(x.particles.size());
+            x.particles.pad();
+        });
+    }
+    /// Who is near across the borders, now that particles are sorted.
+    void meet_others()
+    {
+        each_species([&](auto q) {
+            auto& x = species<q()>();
+            parts_.finish(q());
+            auto with = [&](auto... targets) {
+                parts_.halo(q()).meet({&species<targets()>().bins...}, x.bins, places<q()>(), x.particles.id(), grid_,
+                                      parts_.shares(), ranks());
+            };
+            constexpr std::integral_constant<int, 0> mobiles{};
+            if constexpr (species_count == 2 && q() == 0) with(mobiles, std::integral_constant<int, 1>{});
+            else with(mobiles); // markers do not meet
+            parts_.place(q(), x.particles.size() + 1 + x.bins.images().of.size());
+        });
+        each_species(
+            [&](auto s) { each_species([&](auto q) { parts_.look_around(s(), q(), species<s()>().bins, grid_); }); });
+    }
+    /// The patch in which each particle was when lists were built.
+    template <int s>
+    std::vector<Index<dim>> patches() const
+    {
+        auto const& p = species<s>().particles;
+        std::vector<Index<dim>> patch(p.size());
+        for (std::size_t i = 0; i < patch.size(); ++i)
+            for (int c = 0; c < dim; ++c) {
+                const auto k = std::size_t(c);
+                const std::int32_t bin = grid_.bin(c, double(p.column(built<s>)[k][i])), n = grid_.per_range(c);
+                patch[i][k] = bin >= 0 ? bin / n : -((-bin + n - 1) / n);
+            }
+        return patch;
+    }
+    bool balance_due() { return backend_.balance.every > 0 && ++looks_ % backend_.balance.every == 0; }
+    /// Like shares of particles, before anything is known of what they cost.
+    void cut_by_number()
+    {
+        std::map<std::uint64_t, std::int64_t> in_cell;
+        each_species([&](auto s) {
+            Index<dim> last{};
+            std::int64_t* count = nullptr;
+            for (std::size_t i = 0; i < counted<s()>(); ++i) {
+                const auto cell = cell_at(species<s()>().particles, position, i);
+                if (!count || cell != last) count = &in_cell[along_curve<dim>(cell)], last = cell;
+                ++*count;
+            }
+        });
+        std::vector<CellCost> cost;
+        for (auto const& [key, n] : in_cell) cost.push_back({key, n});
+        parts_.use(Shares<dim>::of_like_cost(std::move(cost), ranks()));
+    }
+    /// Like shares of what cells have cost since lists were built, if that pays.
+    void cut_by_cost()
+    {
+        std::vector<CellCost> cost;
+        each_species([&](auto s) {
+            auto const& bins = species<s()>().bins;
+            for (std::size_t k = 0; k < bins.cells(); ++k)
+                cost.push_back({along_curve<dim>(bins.cell(k)), parts_.cost(s())[k]});
+        });
+        parts_.cut_by_cost(std::move(cost), backend_.balance.tolerated);
+    }
+    /// The skin at each particle, empty where all are the same.
+    template <int s>
+    std::vector<double> skins_by_particle() const
+    {
+        auto const& skins = skins_.of(s);
+        auto const& x = species<s>();
+        std::vector<double> skin;
+        if (skins_.uniform()) return skin;
+        skin.resize(x.particles.size());
+        for (std::size_t p = 0; p < skins.patches(); ++p) {
+            const auto here = Skins<dim>::particles_of(x.bins, p, grid_);
+            for (auto i = here.first; i < here.last; ++i) skin[std::size_t(i)] = skins.of(p);
+        }
+        return skin;
+    }
+
     void choose_skins(bool wide)
     {
         skins_.use(neighbours_.closed_in());
         if (!neighbours_.local || !any_pairs) return;
-        if constexpr (M::markers) skins_.look_around(grid_, species<0>().bins, &species<1>().bins);
-        else skins_.look_around(grid_, species<0>().bins, nullptr);
+        look_around();
         if (wide) return;
         skins_.use(neighbours_.closed_in(), spreads([](auto& box, auto const& p, std::size_t i) {
                        for (int c = 0; c < dim; ++c) box.add(c, double(p.column(velocity)[std::size_t(c)][i]));
-                   }));
+                   }),
+                   ranks());
     }
     /// Whether a pair of any patch may have closed in by more than its skin at positions up to x + v t and `more` [m].
     [[nodiscard]] bool outrun(double t, double more) const
@@ -746,8 +1093,13 @@ private:
         }
         else
             for (int c = 0; c < dim; ++c) markers.add(c, 0); // they stand still
-        return skins_.spreads(
+        auto all = skins_.spreads(
             grid_, species<0>().bins, markers, [&](auto& box, std::size_t i) { add(box, mobile(), i); }, backend_);
+        if constexpr (!alone) {
+            if constexpr (M::moves) all.markers = ranks().all(all.markers, agree::Join{});
+            const_cast<Parts&>(parts_).exchange_patches(0, all.mobile, skins_.of(0).patches());
+        }
+        return all;
     }
     void wrap()
     {
@@ -790,8 +1142,9 @@ private:
     typename AllMemory<std::make_integer_sequence<int, species_count * species_count>>::type aside_;
     std::array<std::vector<Array<T>>, std::size_t(species_count* species_count)> memory_; ///< of pairs, by cell
     LocalSkins<dim, species_count> skins_;
+    [[no_unique_address]] Parts parts_;
     bool have_lists_ = false, sorted_markers_ = false, kick_rates_ = false;
-    std::int64_t rebuilds_ = 0, evaluations_ = 0, pairs_evaluated_ = 0;
+    std::int64_t rebuilds_ = 0, evaluations_ = 0, pairs_evaluated_ = 0, looks_ = 0;
 };
 
 } // namespace spate
