@@ -156,8 +156,10 @@ public:
         if (physics().open())
             throw BadInput("spacing", "not known",
                            "given by a fill, or kernel.h and what terms want of it by hand [m]");
-        check_particles();
-        if (step_ == 0) check_places();
+        together(system_.ranks(), [&] {
+            check_particles();
+            if (step_ == 0) check_places();
+        });
         system_.use(make_grid());
         system_.resized();
         system_.distribute(step_ == 0);
@@ -180,6 +182,7 @@ public:
     RunReport const& run(RunOptions const& o, Output&&... output)
     {
         check(o);
+        if constexpr (!Engine::alone) agree_on(o);
         if (!prepared_) prepare();
         begin_run(o);
         (output.begin(*this), ...);
@@ -212,8 +215,7 @@ public:
         choose_dt(o, e);
         if constexpr (Engine::M::moves) e |= move_markers(dt_);
         if (stale(e)) {
-            if constexpr (W::on)
-                stop_if_outside(system_.mobile(), system_.boundary(), physics().interaction.range(), step_, time_);
+            if constexpr (W::on) look_outside();
             rebuild();
             if (stale(e.unmoved())) rebuild(true);
             if (stale(e.unmoved())) stop_outrun(e.unmoved());
@@ -313,6 +315,28 @@ private:
     }(static_cast<typename P::Terms const*>(nullptr));
     static constexpr bool needs_acceleration = has_equation_of_state<P> || I::ahead_acceleration > 0;
 
+    /// Ranks that run different scenes, or not to the same end, would wait for each other for ever.
+    [[gnu::cold]] void agree_on(RunOptions const& o) const
+    {
+        const double mine[] = {o.until,
+                               double(o.steps),
+                               o.cfl,
+                               o.dt,
+                               double(step_),
+                               double(system_.backend().cell),
+                               physics().interaction.range(),
+                               system_.neighbours().skin,
+                               system_.neighbours().bin_edge()};
+        constexpr const char* names[] = {"until", "steps", "cfl", "dt", "the step", "cell", "range", "skin", "bins"};
+        std::array<double, std::size(mine)> least, most;
+        std::copy(std::begin(mine), std::end(mine), least.begin()), most = least;
+        system_.ranks().each(least, agree::Least{});
+        system_.ranks().each(most, agree::Most{});
+        for (std::size_t k = 0; k < least.size(); ++k)
+            if (least[k] != most[k])
+                throw BadInput(names[k], text(least[k]) + " on one rank and " + text(most[k]) + " on another",
+                               "the same on all ranks");
+    }
     [[nodiscard]] bool interrupted() const { return system_.ranks().all(interrupted_(), agree::Or{}); }
     /// Walls that reflect what has gone through them.
     static constexpr bool reflects = requires(B const b, Point x, Point v) { b.reflect(x, v, 0.0); };
@@ -458,20 +482,22 @@ private:
             }
         });
         if (system_.ranks().all(bool(any), agree::Or{})) system_.forget_kick_rates();
-        if (system_.ranks().all(bool(lost), agree::Or{})) stop_lost();
+        if (system_.ranks().all(bool(lost), agree::Or{})) together(system_.ranks(), [&] { stop_lost(); });
     }
     static double radius_of([[maybe_unused]] auto const& p, [[maybe_unused]] std::size_t i)
     {
         if constexpr (std::remove_cvref_t<decltype(p)>::template has<Radius>) return p.at(radius, i);
         else return 0;
     }
-    [[noreturn, gnu::cold]] void stop_lost() const
+    [[gnu::cold]] void stop_lost() const
     {
         auto const& p = system_.mobile();
         const std::size_t i = detail::first_by_id(p, [&](std::size_t k) {
             Point x = p.at(position, k), v = p.at(velocity, k);
             return system_.boundary().reflect(x, v, radius_of(p, k)) != B::Bounce::none;
         });
+        if constexpr (!Engine::alone)
+            if (i == p.size()) return; // it is another rank's
         StopFacts f = i < p.size() ? detail::facts_of(p, i) : StopFacts{};
         f.step = step_, f.time = time_, f.quantity = "the bounces off two walls in one step", f.limit = B::bounces;
         f.value = std::numeric_limits<double>::infinity();
@@ -521,8 +547,10 @@ private:
     }
     [[gnu::cold]] Grid<dim> make_grid() const
     {
-        const int by_dimension[] = {64, 16, 6};
-        const int cell = system_.backend().cell > 0 ? system_.backend().cell : by_dimension[dim - 1];
+        constexpr int by_dimension[] = {64, 16, 6}, of_many_ranks[] = {16, 4, 2}; // several cells a rank
+        const int cell = system_.backend().cell > 0 ? system_.backend().cell
+                         : Engine::alone            ? by_dimension[dim - 1]
+                                                    : of_many_ranks[dim - 1];
         auto box = system_.boundary().template box<dim>();
         if (!box) {
             Point lo{};
@@ -625,14 +653,20 @@ private:
                     std::max({report_.density_change, e.most_density / eos.rho0 - 1, 1 - e.least_density / eos.rho0});
         }
         if constexpr (W::on) {
-            if (e.poison != 0) stop_if_not_finite(system_.mobile(), step_, time_);
+            if (e.poison != 0) together(system_.ranks(), [&] { stop_if_not_finite(system_.mobile(), step_, time_); });
         }
     }
     [[gnu::cold]] void final_look()
     {
         look(system_.extremes());
         if (!system_.stale(system_.extremes(), 0, 0)) look_at_energy(); // a rebuild here would wrap the last state
-        stop_if_outside(system_.mobile(), system_.boundary(), physics().interaction.range(), step_, time_);
+        look_outside();
+    }
+    void look_outside() const
+    {
+        together(system_.ranks(), [&] {
+            stop_if_outside(system_.mobile(), system_.boundary(), physics().interaction.range(), step_, time_);
+        });
     }
     void look_at_energy()
     {

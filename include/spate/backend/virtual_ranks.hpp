@@ -155,12 +155,15 @@ public:
     template <class T, class Merge>
     [[nodiscard]] T all(T mine, Merge const& merge) const
     {
-        all(std::span<T>(&mine, 1), merge);
+        std::span<T, 1> one(&mine, 1);
+        each(one, merge);
         return mine;
     }
-    template <class T, class Merge>
-    void all(std::span<T> mine, Merge const& merge) const
+    template <class Merge>
+    void each(auto& values, Merge const& merge) const
     {
+        const std::span mine(values);
+        using T = std::remove_reference_t<decltype(mine[0])>;
         world_->meet(me_, mine.data(), [&] {
             auto* const sum = mine.data(); // the caller is one of them, so all else are merged into it
             for (int r = 0; r < count(); ++r)

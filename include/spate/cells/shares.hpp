@@ -61,7 +61,7 @@ public:
                 open = open || low[r] < high[r];
             }
             if (!open) break;
-            ranks.all(std::span<std::int64_t>(cost), agree::Sum{});
+            ranks.each(cost, agree::Sum{});
             for (std::size_t r = 1; r < cuts; ++r) {
                 if (low[r] >= high[r]) continue;
                 const std::uint64_t middle = low[r] + (high[r] - low[r]) / 2;

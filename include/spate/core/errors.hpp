@@ -16,6 +16,8 @@ struct BadInput : std::invalid_argument {
     [[gnu::cold]] BadInput(std::string const& parameter, std::string const& value, std::string const& allowed)
         : std::invalid_argument("spate: " + parameter + " is " + value + "; allowed is " + allowed)
     {}
+    /// As another rank has said it.
+    explicit BadInput(std::string const& sentence) : std::invalid_argument(sentence) {}
 };
 
 /// A number as a message shows it: the shortest of up to 10 digits.
@@ -116,5 +118,17 @@ struct IndexOverflow : Stop {
                "a particle is too far from the origin for the cell index: bound the domain")
     {}
 };
+
+/// Throws the stop of a name.
+[[noreturn, gnu::cold]] inline void throw_stop(std::string const& name, StopFacts const& f)
+{
+    if (name == "NonFinite") throw NonFinite(f);
+    if (name == "OutOfDomain") throw OutOfDomain(f);
+    if (name == "EnergyRunaway") throw EnergyRunaway(f);
+    if (name == "DtCollapse") throw DtCollapse(f);
+    if (name == "SkinOutrun") throw SkinOutrun(f);
+    if (name == "IndexOverflow") throw IndexOverflow(f);
+    throw Stop(name, f, "another rank has stopped");
+}
 
 } // namespace spate

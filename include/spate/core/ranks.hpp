@@ -13,13 +13,13 @@ namespace spate {
 
 // clang-format off
 template <class R>
-concept Ranks = requires(R const r, double x, std::span<double> xs, void (*merge)(double&, double const&),
+concept Ranks = requires(R const r, double x, std::vector<double>& xs, void (*merge)(double&, double const&),
                          std::vector<Parcel> parcels, std::span<Packet const> packets) {
     { R::alone } -> std::convertible_to<bool>;        // constant true: there is one rank, nothing is ever sent
     { r.rank() } -> std::convertible_to<int>;         // 0 to count() - 1
     { r.count() } -> std::convertible_to<int>;
-    { r.all(x, merge) } -> std::same_as<double>;      // the values of all ranks, merged in any order
-    r.all(xs, merge);                                 // the same for each of several
+    { r.all(x, merge) } -> std::convertible_to<double>; // the values of all ranks, merged in any order
+    r.each(xs, merge);                                // the same for each of several, in place
     { r.scatter(parcels) } -> std::same_as<std::vector<Parcel>>; // to whom they go; returns what came, by rank
     r.exchange(packets, packets, 0);                  // sends the first, receives the second, with a tag: a Flight
 };
@@ -41,9 +41,7 @@ struct Alone {
     {
         return mine;
     }
-    template <class T>
-    static void all(std::span<T>, auto const&)
-    {}
+    static void each(auto&, auto const&) {}
     static std::vector<Parcel> scatter(std::vector<Parcel> parcels) { return parcels; }
     struct Landed {
         static int next() { return -1; }
@@ -88,6 +86,13 @@ struct Join { // of Extremes, Spread
 };
 } // namespace agree
 
+/// The ranks that share a scene.
+template <class Scene>
+[[nodiscard]] auto party_of([[maybe_unused]] Scene const& scene)
+{
+    if constexpr (requires { scene.system().ranks(); }) return scene.system().ranks();
+    else return Alone{};
+}
 /// The ranks that a backend works on: its own, or Alone.
 template <class Workers>
 [[nodiscard]] auto ranks_of([[maybe_unused]] Workers const& workers)

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "spate/core/fields.hpp"
+#include "spate/core/ranks.hpp"
 #include "spate/core/reduction.hpp"
 
 #include <array>
@@ -26,6 +27,7 @@ struct WallForce {
             const auto f = p.at(mass, i) * p.at(acceleration, i);
             for (int c = 0; c < dim; ++c) sum[std::size_t(c)].add(-f[c]);
         });
+        party_of(scene).each(sum, agree::Sum{});
         Vec<dim, double> force;
         for (int c = 0; c < dim; ++c) force[c] = sum[std::size_t(c)].value();
         return force;

@@ -239,8 +239,8 @@ public:
             before[std::size_t(ranks_.rank())] += c.cost;
             after[std::size_t(shares.owner_of(c.key))] += c.cost;
         }
-        ranks_.all(std::span(before), agree::Sum{});
-        ranks_.all(std::span(after), agree::Sum{});
+        ranks_.each(before, agree::Sum{});
+        ranks_.each(after, agree::Sum{});
         const auto most = [](auto const& v) { return double(*std::max_element(v.begin(), v.end())); };
         double sum = 0;
         for (auto const c : before) sum += double(c);

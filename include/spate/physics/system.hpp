@@ -8,6 +8,7 @@
 #include "spate/core/precision.hpp"
 #include "spate/core/ranks.hpp"
 #include "spate/core/reduction.hpp"
+#include "spate/core/together.hpp"
 #include "spate/physics/decomposition.hpp"
 #include "spate/physics/extremes.hpp"
 #include "spate/physics/model.hpp"
@@ -134,16 +135,18 @@ public:
             if (have_lists_ && balance_due()) cut_by_cost();
             go_home(true);
         }
-        each_species([&](auto s) {
-            auto& x = species<s()>();
-            if (s() != 0 && sorted_markers_ && !M::moves) return;
-            x.bins.sort(x.particles, grid_);
-            remember_places<s()>();
+        together(ranks(), [&] {
+            each_species([&](auto s) {
+                auto& x = species<s()>();
+                if (s() != 0 && sorted_markers_ && !M::moves) return;
+                x.bins.sort(x.particles, grid_);
+                remember_places<s()>();
+            });
         });
         sorted_markers_ = true;
         if constexpr (!alone) meet_others();
         choose_skins(wide);
-        build_lists();
+        together(ranks(), [&] { build_lists(); });
         ++rebuilds_;
     }
     /// Gives cells to other ranks by new cuts; lists, their skins, and when they are built anew stay as they are.
@@ -1029,6 +1032,10 @@ private:
         });
         std::vector<CellCost> cost;
         for (auto const& [key, n] : in_cell) cost.push_back({key, n});
+        const auto cells = ranks().all(std::int64_t(cost.size()), agree::Sum{});
+        if (cells > 0 && cells < ranks().count())
+            throw BadInput("the number of ranks", std::to_string(ranks().count()),
+                           "at most that of occupied cells, " + std::to_string(cells) + "; smaller cells are more");
         parts_.use(Shares<dim>::of_like_cost(std::move(cost), ranks()));
     }
     /// Like shares of what cells have cost since lists were built, if that pays.
