@@ -41,7 +41,7 @@ inline void expect_scatter(Ranks auto const& ranks)
             if ((me + to + round) % 3 == 0) continue;
             out.push_back({to, {}});
             out.back().message.put(100 * me + to);
-            out.back().message.put(std::vector<double>(std::size_t(round * 1000), me));
+            out.back().message.put(std::vector<double>(std::size_t(round * 10), me));
         }
         auto in = ranks.scatter(std::move(out));
         std::size_t k = 0;
@@ -50,7 +50,7 @@ inline void expect_scatter(Ranks auto const& ranks)
             ASSERT_LT(k, in.size());
             EXPECT_EQ(in[k].rank, from);
             EXPECT_EQ(in[k].message.template take<int>(), 100 * from + me);
-            EXPECT_EQ(in[k].message.template take_all<double>(), std::vector<double>(std::size_t(round * 1000), from));
+            EXPECT_EQ(in[k].message.template take_all<double>(), std::vector<double>(std::size_t(round * 10), from));
             EXPECT_TRUE(in[k].message.empty());
             ++k;
         }
