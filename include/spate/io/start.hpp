@@ -18,11 +18,12 @@ namespace spate::io {
 /// One entry a particle, in the order of the ids that they get.
 template <int Dim>
 struct Start {
-    std::vector<Vec<Dim, double>> x; ///< [m]
-    std::vector<Vec<Dim, double>> v; ///< [m/s]
-    std::vector<double> radius;      ///< [m]; empty: not said
-    std::vector<double> mass;        ///< [kg]; empty: not said
-    std::optional<Box<Dim>> box;     ///< in which they are, if the file says so
+    std::vector<Vec<Dim, double>> x;  ///< [m]
+    std::vector<Vec<Dim, double>> v;  ///< [m/s]
+    std::vector<double> radius;       ///< [m]; empty: not said
+    std::vector<double> mass;         ///< [kg]; empty: not said
+    std::vector<Vec<3, double>> spin; ///< angular velocity [1/s], in 2D about z; empty: none
+    std::optional<Box<Dim>> box;      ///< in which they are, if the file says so
 
     [[nodiscard]] std::size_t size() const { return x.size(); }
 

@@ -57,6 +57,20 @@ public:
         text_ = {};
         return false;
     }
+    /// The next line, whatever stands on it.
+    std::string any()
+    {
+        text_ = {};
+        if (!std::getline(in_, whole_)) return "";
+        ++number_;
+        return whole_;
+    }
+    /// What follows a # in the line in hand.
+    [[nodiscard]] std::string_view comment() const
+    {
+        const std::size_t at = whole_.find('#');
+        return at == whole_.npos ? std::string_view() : trimmed(std::string_view(whole_).substr(at + 1));
+    }
     /// Of the line in hand, without blanks at its ends.
     [[nodiscard]] std::string_view text() const { return text_; }
     /// The words between commas.
