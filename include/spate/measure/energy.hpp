@@ -32,7 +32,7 @@ Energy energy_of(S const& s, Eos const* eos, Vec<Dim, double> const& g)
         e.potential = s.sum([&](std::size_t i) { return -mass_of(i) * g.dot(p.at(position, i)); });
     if constexpr (!std::is_void_v<Eos> && Q::template has<Density>)
         e.internal = s.sum([&](std::size_t i) { return mass_of(i) * eos->energy_of(p.at(density, i)); });
-    else e.internal = s.pair_energy();
+    else e.internal = s.pair_energy() + s.wall_energy();
     return e;
 }
 

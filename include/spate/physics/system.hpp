@@ -13,6 +13,7 @@
 #include "spate/physics/model.hpp"
 #include "spate/physics/sweep.hpp"
 
+#include <atomic>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -28,6 +29,9 @@ public:
     static constexpr int dim = M::dim;
     static constexpr int species_count = M::species;
     static constexpr std::size_t task = 2048; ///< particles in a task of a pass; a multiple of every pack
+
+    /// Whether walls reflect what has gone through them.
+    static constexpr bool reflects = requires(B const b, Vec<dim, double> x) { b.reflect(x, x, 0.0); };
 
     /// Whether any term looks at neighbours.
     static constexpr bool any_pairs =
@@ -361,6 +365,61 @@ public:
         }
         return ranks().all(total, agree::Sum{}).value();
     }
+    /// The sum of what the mobile particles store in walls that they touch, wall_energy(i) of a term [J].
+    [[nodiscard]] double wall_energy() const
+    {
+        constexpr bool any = []<class... X>(std::tuple<X...> const*) {
+            return (false || ... || requires { X::pushes; });
+        }(static_cast<typename M::Terms const*>(nullptr));
+        if constexpr (any)
+            return sum([&](std::size_t i) {
+                double e = 0;
+                detail::each_in(terms_, [&](auto const& t) {
+                    if constexpr (requires { t.wall_energy(AsDouble{mobile(), i}); })
+                        e += t.wall_energy(AsDouble{mobile(), i});
+                });
+                return e;
+            });
+        else return 0;
+    }
+    /// What terms of a boundary without markers do to the particles: f(i, sums) with all that they add to particle i.
+    void wall_sums(auto const& f) const
+    {
+        using Sums = Record<dim, double, Set<(Fields<>{} | M::wall_adds)>>;
+        for (std::size_t i = 0; i < mobile().size(); ++i) {
+            Sums sums;
+            clear(sums);
+            Pushing<Sums> view{{mobile(), i}, sums};
+            detail::each_in(terms_, [&]<class X>(X const& t) {
+                if constexpr (requires { X::pushes; }) t(view);
+            });
+            f(i, sums);
+        }
+    }
+    /// Sends back what has gone through elastic walls. Returns whether any has.
+    bool reflect() requires(reflects)
+    {
+        auto& p = mobile();
+        std::atomic<bool> any = false, lost = false;
+        stretches<0>([&](std::size_t first, std::size_t last) {
+            constexpr auto W = std::size_t(width<V>);
+            for (std::size_t k = first; k < last; k += W) {
+                if (!boundary_.any_beyond(p.template load_at<V>(position, k), radius_at<V>(k))) continue;
+                for (std::size_t i = k; i < std::min(last, k + W); ++i) {
+                    Vec<dim, double> x = p.at(position, i), v = p.at(velocity, i);
+                    const auto bounce = boundary_.reflect(x, v, radius_at<double>(i));
+                    if (bounce == B::Bounce::none) continue;
+                    p.put(position, i, x), p.put(velocity, i, v);
+                    any = true;
+                    if (bounce == B::Bounce::too_many) lost = true;
+                }
+            }
+        });
+        lost_ = ranks().all(lost_ || lost, agree::Or{});
+        return ranks().all(bool(any), agree::Or{});
+    }
+    /// Whether a particle bounced too often within one step.
+    [[nodiscard]] bool lost() const { return lost_; }
     /// Bytes of all that is kept for the particles: columns, records, lists, bins.
     [[nodiscard, gnu::cold]] std::size_t bytes() const
     {
@@ -394,7 +453,8 @@ public:
         });
         each_species([&](auto s) {
             each_species([&](auto q) {
-                if constexpr (kept_values < s(), q() >> 0) {
+                constexpr int values = kept_values<s(), q()>;
+                if constexpr (values > 0) {
                     for (auto const& pair : kept_of_pairs<s(), q()>()) {
                         std::uint64_t h =
                             mix(mix(mix(std::uint64_t(s() * species_count + q()) + 17) + pair.i) + pair.j);
@@ -565,6 +625,31 @@ private:
         });
         return r;
     }
+    template <class X>
+    [[nodiscard]] X radius_at(std::size_t i) const
+    {
+        if constexpr (!ParticlesOf<0>::template has<Radius>) return X(0);
+        else if constexpr (std::same_as<X, double>) return mobile().at(radius, i);
+        else return mobile().template load_at<X>(radius, i);
+    }
+    /// A particle as a term that computes in double reads it.
+    struct AsDouble {
+        ParticlesOf<0> const& particles;
+        std::size_t i;
+        auto operator[](auto f) const { return particles.at(f, i); }
+    };
+    /// The same, with sums of its own to add to.
+    template <class Sums>
+    struct Pushing {
+        AsDouble particle;
+        Sums& sums;
+        template <Field F>
+        decltype(auto) operator[](F f) const
+        {
+            if constexpr (Sums::template has<F>) return (sums[f]);
+            else return particle[f];
+        }
+    };
     static auto double_record(auto const& p, std::size_t i)
     {
         Record<dim, double, Set<(Interaction::reads & ParticlesOf<0>::fields)>> r;
@@ -1187,7 +1272,7 @@ private:
     std::array<std::vector<Array<T>>, std::size_t(species_count* species_count)> memory_; ///< of pairs, by cell
     LocalSkins<dim, species_count> skins_;
     [[no_unique_address]] Parts parts_;
-    bool have_lists_ = false, sorted_markers_ = false, kick_rates_ = false;
+    bool have_lists_ = false, sorted_markers_ = false, kick_rates_ = false, lost_ = false;
     std::optional<Carry> carry_; ///< of sweeps for rates; to others what is kept of pairs is only shown
     double due_ = 0, moved_ = 0; ///< time since what is kept of pairs was kept, since the step was saved [s]
     bool trial_ = false;         ///< between save() and advance_saved()
