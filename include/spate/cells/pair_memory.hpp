@@ -7,6 +7,7 @@
 #include "spate/cells/neighbours.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace spate {
@@ -33,7 +34,7 @@ public:
                 bool any = false;
                 for (int c = 0; c < Count; ++c) {
                     p.value[std::size_t(c)] = memory[cell][place(row, c, W) + lane];
-                    any = any || p.value[std::size_t(c)] != T(0);
+                    any = any || p.value[std::size_t(c)] != T(0) || std::signbit(p.value[std::size_t(c)]);
                 }
                 const std::size_t j = number_of(lists, lists.of_cell(cell).index[slot], source.size(), of);
                 if (!any || j == source.size()) return;
@@ -61,6 +62,8 @@ public:
         }
     }
     [[nodiscard]] std::vector<Pair> const& pairs() const { return pairs_; }
+    /// What was taken at another time; sorted by ids.
+    void put(std::vector<Pair> pairs) { pairs_ = std::move(pairs); }
 
     /// Where component c of a row of W slots begins.
     static std::size_t place(std::size_t row, int c, int W)

@@ -83,8 +83,36 @@ public:
         skin_.resize(speed.size());
         for (std::size_t p = 0; p < speed.size(); ++p) {
             skin_[p] = fastest > 0 ? skin * (at_rest + (1 - at_rest) * (speed[p] / fastest)) : skin;
-            least_ = std::min(least_, skin_[p]);
+            if (!near(p).empty()) least_ = std::min(least_, skin_[p]); // else cells of another size had another least
         }
+    }
+    /// The skins of another time. \param skin  where all are the same, and of patches without pairs
+    void use(double skin, std::vector<double> of_patch)
+    {
+        uniform_ = least_ = skin;
+        skin_ = std::move(of_patch);
+        for (std::size_t p = 0; p < skin_.size(); ++p)
+            if (!near(p).empty()) least_ = std::min(least_, skin_[p]);
+    }
+    /// Where a patch lies, counted in patches along each axis: the same for every size of cells.
+    static Index<Dim> place(Binning<Dim> const& at, std::size_t patch, Grid<Dim> const& grid)
+    {
+        const std::size_t per_cell = patches_of_cell(grid);
+        Index<Dim> place = at.cell(patch / per_cell);
+        auto rest = std::int32_t(patch % per_cell);
+        for (int c = 0; c < Dim; ++c, rest /= grid.cell())
+            place[std::size_t(c)] = place[std::size_t(c)] * grid.cell() + rest % grid.cell();
+        return place;
+    }
+    /// The place of the patch that holds x: the bins of a range.
+    static Index<Dim> place(Vec<Dim, double> const& x, Grid<Dim> const& grid)
+    {
+        Index<Dim> place;
+        for (int c = 0; c < Dim; ++c) {
+            const std::int32_t bin = grid.bin(c, x[c]), n = grid.per_range(c);
+            place[std::size_t(c)] = bin >= 0 ? bin / n : -((n - 1 - bin) / n);
+        }
+        return place;
     }
     /// Fraction of the range by which pairs of a patch may close in.
     [[nodiscard]] double of(std::size_t patch) const { return skin_.empty() ? uniform_ : skin_[patch]; }
@@ -156,6 +184,7 @@ template <int Dim, int Species>
 class LocalSkins {
 public:
     [[nodiscard]] Skins<Dim> const& of(int species) const { return skins_[std::size_t(species)]; }
+    [[nodiscard]] Skins<Dim>& of(int species) { return skins_[std::size_t(species)]; }
     [[nodiscard]] double least() const
     {
         double least = skins_[0].least();
@@ -209,7 +238,8 @@ public:
         std::atomic<bool> any = false;
         for (std::size_t s = 0; s < skins_.size(); ++s)
             in_tasks(skins_[s].patches(), backend, [&](std::size_t p) {
-                if (!any && !(differ(s, p, displacements) + more <= skins_[s].of(p) * range)) any = true;
+                if (any || skins_[s].near(p).empty()) return; // nothing is near: no pair
+                if (!(differ(s, p, displacements) + more <= skins_[s].of(p) * range)) any = true;
             });
         return any;
     }

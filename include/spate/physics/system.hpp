@@ -111,6 +111,7 @@ public:
                 aside.take(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
                            species<q()>().particles, species<q()>().bins, width<V>);
         });
+        have_lists_ = false; // sorting may stop: the lists would be of another order
         each_species([&](auto s) {
             auto& x = species<s()>();
             if (s() != 0 && sorted_markers_ && !M::moves) return;
@@ -121,23 +122,7 @@ public:
         });
         sorted_markers_ = true;
         choose_skins(wide);
-        const double range = physics_.interaction.range(), beyond = neighbours_.skin - neighbours_.closed_in();
-        each_species([&](auto s) {
-            auto build = [&](auto... sources) {
-                const std::array<typename Lists<dim>::template From<T>, sizeof...(sources)> from{sources...};
-                Lists<dim>::build(places<s()>(), species<s()>().bins, grid_, width<V>, neighbours_.window, range,
-                                  skins_.of(s()), beyond, backend_, from);
-            };
-            constexpr bool meets_0 = M::planner.meet(s(), 0), meets_1 = species_count == 2 && M::planner.meet(s(), 1);
-            if constexpr (meets_0 && meets_1) build(from<s(), 0>(), from<s(), 1>());
-            else if constexpr (meets_0) build(from<s(), 0>());
-            else if constexpr (meets_1) build(from<s(), 1>());
-        });
-        each_memory([&](auto s, auto q, auto& aside, auto& memory) {
-            aside.give(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
-                       species<q()>().particles, species<q()>().bins, width<V>);
-        });
-        have_lists_ = true;
+        build_lists();
         ++rebuilds_;
     }
     /// Whether lists may miss a pair of positions up to x + v t + a t2. Two mobile particles close in by no more than the
@@ -179,6 +164,78 @@ public:
     }
     [[nodiscard]] std::int64_t evaluations() const { return evaluations_; }
     [[nodiscard]] std::int64_t pairs_evaluated() const { return pairs_evaluated_; }
+
+    // ---- going on from a checkpoint
+    /// f(name, number) for what has been counted, and for what is known of the lists.
+    template <class Self>
+    static void numbers_of(Self& self, auto const& f)
+    {
+        f("have_lists", self.have_lists_), f("kick_rates_current", self.kick_rates_);
+        f("rebuilds", self.rebuilds_), f("evaluations", self.evaluations_);
+        f("pairs_evaluated", self.pairs_evaluated_);
+    }
+    /// The place of the patch that holds x.
+    static Index<dim> place(Vec<dim, double> const& x, Grid<dim> const& grid) { return Skins<dim>::place(x, grid); }
+    /// f(s, place of a patch, its skin) for each patch that holds particles, where skins differ by place.
+    void each_skin(auto const& f) const
+    {
+        each_species([&](auto s) {
+            auto const& skins = skins_.of(s());
+            auto const& bins = species<s()>().bins;
+            if (skins.uniform()) return;
+            for (std::size_t p = 0; p < skins.patches(); ++p)
+                if (!Skins<dim>::particles_of(bins, p, grid_).empty())
+                    f(s, Skins<dim>::place(bins, p, grid_), skins.of(p));
+        });
+    }
+    /// f(s, q, pairs) with what is kept of the pairs s <- q, sorted by ids.
+    void each_kept(auto const& f) const
+    {
+        each_species([&](auto s) {
+            each_species([&](auto q) {
+                constexpr int values = kept_values<s(), q()>;
+                if constexpr (values > 0) {
+                    PairMemory<T, values> now;
+                    if (have_lists_)
+                        now.take(lists<s(), q()>(), memory_[std::size_t(s() * species_count + q())],
+                                 species<s()>().particles, species<s()>().bins, species<q()>().particles,
+                                 species<q()>().bins, width<V>);
+                    f(s, q, now.pairs());
+                }
+            });
+        });
+    }
+    /// Builds the lists that a checkpoint was written with: from where particles were when those were built, with the
+    /// skins of then. Lists built from the positions of now would have their neighbours in another order.
+    /// \param local  skins differ by place: skin_of(s, place)
+    /// \param pairs_of  (s, q, type of a pair) -> what was kept of the pairs, sorted by ids
+    [[gnu::cold]] void restore_lists(bool local, auto const& skin_of, auto const& pairs_of)
+    {
+        make_room();
+        each_memory([&]<class Aside>(auto s, auto q, Aside& aside, auto&) {
+            aside.put(pairs_of(s, q, std::type_identity<typename Aside::Pair>{}));
+        });
+        if (!have_lists_) return;
+        each_species([&](auto s) {
+            auto& x = species<s()>();
+            swap_with_built(x.particles);
+            x.bins.sort(x.particles, grid_);
+        });
+        sorted_markers_ = true;
+        choose_skins(true);
+        if (local)
+            each_species([&](auto s) {
+                auto& skins = skins_.of(s());
+                auto const& bins = species<s()>().bins;
+                std::vector<double> skin(skins.patches(), neighbours_.closed_in());
+                for (std::size_t p = 0; p < skin.size(); ++p)
+                    if (!Skins<dim>::particles_of(bins, p, grid_).empty())
+                        skin[p] = skin_of(s, Skins<dim>::place(bins, p, grid_));
+                skins.use(neighbours_.closed_in(), std::move(skin));
+            });
+        build_lists();
+        each_species([&](auto s) { swap_with_built(species<s()>().particles); });
+    }
 
     // ---- rates
     /// Brings the rates of the asked fields up to date in every species that has them.
@@ -398,11 +455,7 @@ public:
     /// Makes room for the particles that have been added since.
     [[gnu::cold]] void resized()
     {
-        each_species([&](auto s) {
-            auto& x = species<s()>();
-            if (saves_) x.start.resize(x.particles.size());
-            x.particles.pad();
-        });
+        make_room();
         forget_lists();
     }
     /// The grid of bins and cells; before the first evaluation.
@@ -709,6 +762,40 @@ private:
     {
         for (std::size_t i = first; i < last; i += std::size_t(width<V>))
             store(y + i, V(load<V>(y0 + i) + V(dt) * load<V>(rate + i)));
+    }
+    void make_room()
+    {
+        each_species([&](auto s) {
+            auto& x = species<s()>();
+            if (saves_) x.start.resize(x.particles.size());
+            x.particles.pad();
+        });
+    }
+    /// Builds the lists of sorted particles, and gives them what was set aside of the pairs.
+    void build_lists()
+    {
+        const double range = physics_.interaction.range(), beyond = neighbours_.skin - neighbours_.closed_in();
+        each_species([&](auto s) {
+            auto build = [&](auto... sources) {
+                const std::array<typename Lists<dim>::template From<T>, sizeof...(sources)> from{sources...};
+                Lists<dim>::build(places<s()>(), species<s()>().bins, grid_, width<V>, neighbours_.window, range,
+                                  skins_.of(s()), beyond, backend_, from);
+            };
+            constexpr bool meets_0 = M::planner.meet(s(), 0), meets_1 = species_count == 2 && M::planner.meet(s(), 1);
+            if constexpr (meets_0 && meets_1) build(from<s(), 0>(), from<s(), 1>());
+            else if constexpr (meets_0) build(from<s(), 0>());
+            else if constexpr (meets_1) build(from<s(), 1>());
+        });
+        each_memory([&](auto s, auto q, auto& aside, auto& memory) {
+            aside.give(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
+                       species<q()>().particles, species<q()>().bins, width<V>);
+        });
+        have_lists_ = true;
+    }
+    static void swap_with_built(auto& particles)
+    {
+        if constexpr (std::remove_cvref_t<decltype(particles)>::template has<BuildPosition>)
+            std::swap(particles.column(position), particles.column(build_position));
     }
     /// Where velocities differ lists reach far; see Skins.
     void choose_skins(bool wide)
