@@ -19,6 +19,7 @@
 #include <chrono>
 #include <functional>
 #include <numbers>
+#include <set>
 
 namespace spate {
 
@@ -192,9 +193,10 @@ public:
             }
             if constexpr (W::on) final_look();
         }
-        catch (Stop const&) {
+        catch (Stop& stop) {
             stopped_ = true;
             (output.end(*this), ...);
+            (tell(stop, output), ...);
             throw;
         }
         (output.end(*this), ...);
@@ -233,6 +235,7 @@ public:
     }
     /// Asked before each step: true ends the run after the step in hand.
     void interrupt_when(std::function<bool()> f) { interrupted_ = std::move(f); }
+    [[nodiscard]] bool interrupted() const { return interrupted_(); }
 
     // ---- what is known
     [[nodiscard]] double time() const { return time_; }
@@ -307,7 +310,87 @@ public:
     }
     [[nodiscard]] std::uint64_t state_hash() const { return system_.state_hash(); }
 
+    // ---- going on from a checkpoint: see io/resume.hpp
+    /// f(name, number) for all that the steps to come depend on beside the particles, and for what has been counted.
+    template <class Self>
+    static void numbers_of(Self& self, auto const& f)
+    {
+        auto& r = self.report_;
+        f("step", self.step_), f("time", self.time_), f("dt", self.dt_);
+        f("free_dt", self.free_dt_), f("first_dt", self.first_dt_), f("warned", self.warned_);
+        f("report_steps", r.steps), f("wall_s", r.wall), f("cpu_s", r.cpu);
+        f("mach_max", r.mach), f("density_change_max", r.density_change), f("energy_rise_max", r.energy_rise);
+        f("energy_reference", r.energy_reference), f("kinetic_start", r.start.kinetic);
+        f("potential_start", r.start.potential), f("internal_start", r.start.internal);
+        Engine::numbers_of(self.system_, f);
+    }
+    /// f(name, value) for what the scene was put together with; a scene that differs in one of them is another scene.
+    [[gnu::cold]] void each_parameter(auto const& f) const
+    {
+        auto const& i = physics().interaction;
+        auto const& n = system_.neighbours();
+        f("range", i.range()), f("length", i.length());
+        if constexpr (has_equation_of_state<P>)
+            f("rho0", equation_of_state(physics()).rho0), f("c0", equation_of_state(physics()).c0);
+        const Stiffness s = stiffness_of_all();
+        f("viscosity", s.viscosity), f("contact_frequency", s.contact_frequency);
+        for (int c = 0; c < dim; ++c) f(along_axis("gravity", c), g_[c]);
+        f("skin", n.skin), f("bin_edge", n.bin_edge()), f("trigger", n.closed_in());
+        f("bins_in_a_range", n.finer), f("skin_by_place", n.local);
+        if (const auto box = system_.boundary().template box<dim>())
+            for (int c = 0; c < dim; ++c) f(along_axis("box_lower", c), box->lo[c]), f(along_axis("box_upper", c), box->hi[c]);
+        system_.each_species([&](auto k) {
+            auto const& p = system_.template species<k()>().particles;
+            for_each(p.uniform, [&]<class F>(F field) {
+                f(std::string(F::name) + " of species " + std::to_string(k()), p.value(field));
+            });
+        });
+    }
+    /// Whether the particles are those that the scene last heard of.
+    [[nodiscard]] bool prepared() const { return prepared_; }
+    /// The state of another time takes the place of this one. fill() puts it into the particles and the numbers; then
+    /// lists(system) builds the lists of then.
+    [[gnu::cold]] void resume(Box<dim> const& grid_box, std::string const& criterion, std::vector<std::string> warnings,
+                              auto const& fill, auto const& lists)
+    {
+        static std::set<std::string> words; // a criterion is a view
+        system_.use(make_grid(grid_box));
+        fill();
+        lists(system_);
+        criterion_ = *words.insert(criterion).first;
+        report_.warnings = std::move(warnings);
+        stiffness_ = stiffness_of_all();
+        if constexpr (Engine::M::moves) system_.boundary().move_to(time_);
+        prepared_ = true, stopped_ = false;
+    }
+    /// The bins of lists beyond the range, in a box.
+    [[gnu::cold]] [[nodiscard]] Grid<dim> make_grid(Box<dim> const& box) const
+    {
+        const int by_dimension[] = {64, 16, 6};
+        const int cell = system_.backend().cell > 0 ? system_.backend().cell : by_dimension[dim - 1];
+        auto const& n = system_.neighbours();
+        return Grid<dim>(box, system_.boundary().template edges<dim>(), physics().interaction.range() * n.bin_edge(),
+                         n.finer, cell);
+    }
+
 private:
+    /// The message of a stop names the files that an output has saved for it.
+    template <class Output>
+    static void tell([[maybe_unused]] Stop& stop, [[maybe_unused]] Output const& output)
+    {
+        if constexpr (requires { stop.add(output.saved()); }) stop.add(output.saved());
+    }
+    [[nodiscard]] Stiffness stiffness_of_all() const
+    {
+        double m = 0;
+        if constexpr (Set<P::uniform>::template contains<Mass>) m = system_.mobile().value(mass);
+        Stiffness s = stiffness_of(physics(), m);
+        detail::each_in(system_.terms(), [&](auto const& t) {
+            if constexpr (requires { t.pushes; })
+                s.contact_frequency = std::max(s.contact_frequency, t.contact_frequency(m));
+        });
+        return s;
+    }
     /// A particle term other than Gravity that pushes: a driving force of unknown work.
     static constexpr bool driven_by_user = []<class... X>(std::tuple<X...> const*) {
         return (false || ... ||
@@ -518,8 +601,6 @@ private:
     }
     [[gnu::cold]] Grid<dim> make_grid() const
     {
-        const int by_dimension[] = {64, 16, 6};
-        const int cell = system_.backend().cell > 0 ? system_.backend().cell : by_dimension[dim - 1];
         auto box = system_.boundary().template box<dim>();
         if (!box) {
             Point lo{};
@@ -535,9 +616,7 @@ private:
             }
             box = Box<dim>{lo, lo};
         }
-        auto const& n = system_.neighbours();
-        return Grid<dim>(*box, system_.boundary().template edges<dim>(), physics().interaction.range() * n.bin_edge(),
-                         n.finer, cell);
+        return make_grid(*box);
     }
     void rebuild(bool wide = false)
     {
@@ -556,13 +635,7 @@ private:
     [[gnu::cold]] void begin_run(RunOptions const& o)
     {
         if (step_ > 0) return;
-        double m = 0;
-        if constexpr (Set<P::uniform>::template contains<Mass>) m = system_.mobile().value(mass);
-        stiffness_ = stiffness_of(physics(), m);
-        detail::each_in(system_.terms(), [&](auto const& t) {
-            if constexpr (requires { t.pushes; })
-                stiffness_.contact_frequency = std::max(stiffness_.contact_frequency, t.contact_frequency(m));
-        });
+        stiffness_ = stiffness_of_all();
         if (o.dt > 0) return;
         const TimeStep t = time_step(stiffness_, o.cfl, 0, std::sqrt(g_.squaredNorm()));
         require(std::isfinite(t.dt), "dt", o.dt, "above 0: the model has no criterion that bounds the step");

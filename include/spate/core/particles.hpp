@@ -195,11 +195,14 @@ public:
     }
 
     [[nodiscard]] std::vector<std::uint32_t> const& id() const { return id_; }
+    /// The id of the next new particle.
+    [[nodiscard]] std::uint32_t next_id() const { return next_id_; }
     /// Sets the ids; only for set-up and for input, they are unique in a species.
-    void set_ids(std::vector<std::uint32_t> id)
+    /// \param next  the id of the next new one, if it is not the one after the largest
+    void set_ids(std::vector<std::uint32_t> id, std::uint32_t next = 0)
     {
         id_ = std::move(id);
-        next_id_ = id_.empty() ? 0 : *std::max_element(id_.begin(), id_.end()) + 1;
+        next_id_ = std::max(next, id_.empty() ? 0 : *std::max_element(id_.begin(), id_.end()) + 1);
     }
 
     /// Particle k becomes what particle order[k] was.

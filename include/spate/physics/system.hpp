@@ -139,6 +139,7 @@ public:
             if (have_lists_ && balance_due()) cut_by_cost();
             go_home(true);
         }
+        have_lists_ = false; // sorting may stop: the lists would be of another order
         each_species([&](auto s) {
             auto& x = species<s()>();
             if (s() != 0 && sorted_markers_ && !M::moves) return;
@@ -156,7 +157,7 @@ public:
     {
         set_memory_aside();
         parts_.use(std::move(shares));
-        std::array<std::vector<double>, std::size_t(species_count)> skin;
+        std::array<std::vector<double>, std::size_t(species_count)> skin, of_patch;
         each_species([&](auto s) { skin[std::size_t(s())] = skins_by_particle<s()>(); });
         go_home(true, &skin);
         each_species([&](auto s) {
@@ -164,11 +165,12 @@ public:
             const auto patch = patches<s()>();
             x.bins.sort(x.particles, grid_, built<s()>);
             if (skins_.uniform()) return;
-            std::vector<double> of_patch(x.bins.cells() * Skins<dim>::patches_of_cell(grid_), neighbours_.closed_in());
+            auto& mine = of_patch[std::size_t(s())];
+            mine.assign(x.bins.cells() * Skins<dim>::patches_of_cell(grid_), neighbours_.closed_in());
             for (std::size_t i = 0; i < patch.size(); ++i)
-                of_patch[number_of_patch(patch[i], x.bins, grid_)] = skin[std::size_t(s())][i];
-            skins_.restore(s(), std::move(of_patch));
+                mine[number_of_patch(patch[i], x.bins, grid_)] = skin[std::size_t(s())][i];
         });
+        if (!skins_.uniform()) skins_.use(neighbours_.closed_in(), std::move(of_patch), ranks());
         sorted_markers_ = true;
         meet_others();
         if (neighbours_.local && any_pairs) look_around();
@@ -208,6 +210,80 @@ public:
     [[nodiscard]] std::int64_t pairs() const { return ranks().all(pairs_here(), agree::Sum{}); }
     [[nodiscard]] std::int64_t evaluations() const { return evaluations_; }
     [[nodiscard]] std::int64_t pairs_evaluated() const { return ranks().all(pairs_evaluated_, agree::Sum{}); }
+
+    // ---- going on from a checkpoint
+    /// f(name, number) for what has been counted, and for what is known of the lists.
+    template <class Self>
+    static void numbers_of(Self& self, auto const& f)
+    {
+        f("have_lists", self.have_lists_), f("kick_rates_current", self.kick_rates_);
+        f("rebuilds", self.rebuilds_), f("evaluations", self.evaluations_);
+        f("pairs_evaluated", self.pairs_evaluated_);
+    }
+    /// The place of the patch that holds x.
+    static Index<dim> place(Vec<dim, double> const& x, Grid<dim> const& grid) { return Skins<dim>::place(x, grid); }
+    /// f(s, place of a patch, its skin) for each patch that holds particles, where skins differ by place.
+    void each_skin(auto const& f) const
+    {
+        each_species([&](auto s) {
+            auto const& skins = skins_.of(s());
+            auto const& bins = species<s()>().bins;
+            if (skins.uniform()) return;
+            for (std::size_t p = 0; p < skins.patches(); ++p)
+                if (!Skins<dim>::particles_of(bins, p, grid_).empty())
+                    f(s, Skins<dim>::place(bins, p, grid_), skins.of(p));
+        });
+    }
+    /// f(s, q, pairs) with what is kept of the pairs s <- q, sorted by ids.
+    void each_kept(auto const& f) const
+    {
+        each_species([&](auto s) {
+            each_species([&](auto q) {
+                constexpr int values = kept_values<s(), q()>;
+                if constexpr (values > 0) {
+                    PairMemory<T, values> now;
+                    if (have_lists_)
+                        now.take(lists<s(), q()>(), memory_[std::size_t(s() * species_count + q())],
+                                 species<s()>().particles, species<s()>().bins, species<q()>().particles,
+                                 species<q()>().bins, width<V>, foreign<q()>());
+                    f(s, q, now.pairs());
+                }
+            });
+        });
+    }
+    /// Builds the lists that a checkpoint was written with: from where particles were when those were built, with the
+    /// skins of then. Lists built from the positions of now would have their neighbours in another order.
+    /// \param local  skins differ by place: skin_of(s, place)
+    /// \param pairs_of  (s, q, type of a pair) -> what was kept of the pairs, sorted by ids
+    [[gnu::cold]] void restore_lists(bool local, auto const& skin_of, auto const& pairs_of)
+    {
+        make_room();
+        each_memory([&]<class Aside>(auto s, auto q, Aside& aside, auto&) {
+            aside.put(pairs_of(s, q, std::type_identity<typename Aside::Pair>{}));
+        });
+        if (!have_lists_) return;
+        each_species([&](auto s) {
+            auto& x = species<s()>();
+            swap_with_built(x.particles);
+            x.bins.sort(x.particles, grid_);
+        });
+        sorted_markers_ = true;
+        choose_skins(true);
+        if (local) {
+            std::array<std::vector<double>, std::size_t(species_count)> of_patch;
+            each_species([&](auto s) {
+                auto const& bins = species<s()>().bins;
+                auto& skin = of_patch[std::size_t(s())];
+                skin.assign(skins_.of(s()).patches(), neighbours_.closed_in());
+                for (std::size_t p = 0; p < skin.size(); ++p)
+                    if (!Skins<dim>::particles_of(bins, p, grid_).empty())
+                        skin[p] = skin_of(s, Skins<dim>::place(bins, p, grid_));
+            });
+            skins_.use(neighbours_.closed_in(), std::move(of_patch), ranks());
+        }
+        build_lists();
+        each_species([&](auto s) { swap_with_built(species<s()>().particles); });
+    }
 
     // ---- rates
     /// Brings the rates of the asked fields up to date in every species that has them. What terms keep of pairs comes along
@@ -482,11 +558,7 @@ public:
     /// Makes room for the particles that have been added since.
     [[gnu::cold]] void resized()
     {
-        each_species([&](auto s) {
-            auto& x = species<s()>();
-            if (saves_) x.start.resize(x.particles.size());
-            x.particles.pad();
-        });
+        make_room();
         forget_lists();
     }
     /// Of what all ranks have been given alike each keeps its own. \param cut  by new cuts, of like numbers of particles
@@ -1005,6 +1077,15 @@ private:
         if constexpr (ParticlesOf<s>::template has<BuildPosition>)
             for (int c = 0; c < dim; ++c) p.column(build_position)[std::size_t(c)] = p.column(position)[std::size_t(c)];
     }
+    void make_room()
+    {
+        each_species([&](auto s) {
+            auto& x = species<s()>();
+            if (saves_) x.start.resize(x.particles.size());
+            x.particles.pad();
+        });
+    }
+    /// Builds the lists of sorted particles, and gives them what was set aside of the pairs.
     void build_lists()
     {
         const double range = physics_.interaction.range(), beyond = neighbours_.skin - neighbours_.closed_in();
@@ -1187,6 +1268,12 @@ private:
         return skin;
     }
 
+    static void swap_with_built(auto& particles)
+    {
+        if constexpr (std::remove_cvref_t<decltype(particles)>::template has<BuildPosition>)
+            std::swap(particles.column(position), particles.column(build_position));
+    }
+    /// Where velocities differ lists reach far; see Skins.
     void choose_skins(bool wide)
     {
         skins_.use(neighbours_.closed_in());
