@@ -235,7 +235,7 @@ public:
     }
     /// Asked before each step: true ends the run after the step in hand.
     void interrupt_when(std::function<bool()> f) { interrupted_ = std::move(f); }
-    [[nodiscard]] bool interrupted() const { return interrupted_(); }
+    [[nodiscard]] bool interrupted() const { return system_.ranks().all(interrupted_(), agree::Or{}); }
 
     // ---- what is known
     [[nodiscard]] double time() const { return time_; }
@@ -399,7 +399,6 @@ private:
     }(static_cast<typename P::Terms const*>(nullptr));
     static constexpr bool needs_acceleration = has_equation_of_state<P> || I::ahead_acceleration > 0;
 
-    [[nodiscard]] bool interrupted() const { return system_.ranks().all(interrupted_(), agree::Or{}); }
     [[gnu::cold]] static P const& checked(P const& physics, B const& boundary, Workers const& backend,
                                           Neighbours const& n, W const& watch)
     {
