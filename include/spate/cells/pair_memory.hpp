@@ -61,6 +61,14 @@ public:
         }
     }
     [[nodiscard]] std::vector<Pair> const& pairs() const { return pairs_; }
+    /// Drops the pairs for which gone(i, j) holds.
+    void forget(auto const& gone)
+    {
+        pairs_.erase(std::remove_if(pairs_.begin(), pairs_.end(), [&](Pair const& p) { return gone(p.i, p.j); }),
+                     pairs_.end());
+    }
+    /// Nothing is aside any more.
+    void clear() { pairs_.clear(); }
 
     /// Where component c of a row of W slots begins.
     static std::size_t place(std::size_t row, int c, int W)

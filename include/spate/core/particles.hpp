@@ -63,10 +63,7 @@ public:
         const std::size_t old = size();
         id_.resize(n);
         for (std::size_t i = old; i < n; ++i) id_[i] = next_id_++;
-        const std::size_t whole = (n + std::size_t(2 * padding) - 1) / std::size_t(padding) * std::size_t(padding);
-        for_each(fields, [&](auto f) {
-            for (auto& a : column(f)) detail::resize(a, whole, std::min(old, n)); // the padding was not zero
-        });
+        fit(std::min(old, n));
     }
     /// The Dim (or 1) columns of a field; column(f)[c][i] is component c of particle i.
     template <Field G>
@@ -217,6 +214,12 @@ public:
         id_ = std::move(id);
         pad();
     }
+    /// Only particles order[0], order[1], ... remain.
+    void keep(std::vector<std::int32_t> const& order)
+    {
+        permute(order);
+        fit(order.size());
+    }
     /// Fills the padding with copies of the last particle, so that a whole pack computes with physical values.
     void pad()
     {
@@ -236,6 +239,14 @@ public:
     }
 
 private:
+    /// Columns as long as there are particles; zero from a place on: the padding was not zero.
+    void fit(std::size_t zero_from)
+    {
+        const std::size_t whole = (size() + std::size_t(2 * padding) - 1) / std::size_t(padding) * std::size_t(padding);
+        for_each(fields, [&](auto f) {
+            for (auto& a : column(f)) detail::resize(a, whole, zero_from);
+        });
+    }
     template <class V>
     [[gnu::always_inline]] static V lanes_of(T const* a, std::int32_t const* target)
     {

@@ -176,17 +176,23 @@ private:
     {
         scene.refresh();
         const auto e = scene.energy();
-        if (written_ < 0) start_ = e.total(), since_ = scene.time();
+        const auto came = scene.exchanged(); // with particles that entered and left
+        if (written_ < 0) {
+            start_ = e.total() - came.energy(), since_ = scene.time();
+            moment_ = came.moment - came.mass() * since_;
+        }
         const auto extremes = scene.system().extremes();
         detail::Row row;
         row.add(scene.steps());
         row.add(scene.time());
         row.add(scene.dt());
         row.add(scene.criterion());
-        for (double part : {e.kinetic, e.potential, e.internal, start_ - e.total()}) row.add(part);
+        for (double part : {e.kinetic, e.potential, e.internal, start_ - (e.total() - came.energy())}) row.add(part);
         row.add(scene.momentum());
         if constexpr (has_density<Scene>) row.add(scene.volume());
-        row.add((scene.total_mass() * (scene.time() - since_)) * scene.gravity());
+        const double changed =
+            came.moment - came.mass() * since_ - moment_; // 0 where the mass has always been the same
+        row.add((scene.total_mass() * (scene.time() - since_) - changed) * scene.gravity());
         if constexpr (has_markers<Scene>) row.add(wall_impulse(scene));
         row.add(extremes.speed);
         if constexpr (has_density<Scene>) row.add(extremes.least_density), row.add(extremes.most_density);
@@ -206,7 +212,8 @@ private:
     std::ofstream out_;
     double since_ = 0, at_ = 0;                   ///< times of the first and the last row [s]
     std::array<std::array<double, 2>, 3> wall_{}; ///< by axis: force of the walls at the last row [N], impulse [N s]
-    double start_ = 0;                            ///< total energy of the first row [J]
+    double start_ = 0;                            ///< total energy of the first row, less what had come in before [J]
+    double moment_ = 0;                           ///< of mass that had entered before the first row [kg s]
     std::int64_t written_ = -1;                   ///< step of the last row
 };
 

@@ -106,11 +106,7 @@ public:
     void rebuild(bool wide = false)
     {
         wrap();
-        each_memory([&](auto s, auto q, auto& aside, auto& memory) {
-            if (have_lists_)
-                aside.take(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
-                           species<q()>().particles, species<q()>().bins, width<V>);
-        });
+        set_aside();
         each_species([&](auto s) {
             auto& x = species<s()>();
             if (s() != 0 && sorted_markers_ && !M::moves) return;
@@ -136,9 +132,35 @@ public:
         each_memory([&](auto s, auto q, auto& aside, auto& memory) {
             aside.give(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
                        species<q()>().particles, species<q()>().bins, width<V>);
+            aside.clear(); // it would be old news to lists to come
         });
         have_lists_ = true;
         ++rebuilds_;
+    }
+    /// Takes what terms keep of pairs out of lists that are about to go; to call before particles come, go or change places.
+    void set_aside()
+    {
+        if (!have_lists_ || !lists_know_all()) return;
+        each_memory([&](auto s, auto q, auto& aside, auto& memory) {
+            aside.take(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
+                       species<q()>().particles, species<q()>().bins, width<V>);
+        });
+        have_lists_ = false;
+    }
+    /// Only mobile particles order[0], order[1], ... remain; what was kept of pairs with the others is forgotten.
+    [[gnu::cold]] void keep(std::vector<std::int32_t> const& order)
+    {
+        set_aside();
+        mobile().keep(order);
+        std::vector<std::uint32_t> ids = mobile().id();
+        std::sort(ids.begin(), ids.end());
+        each_memory([&](auto s, auto q, auto& aside, auto&) {
+            const auto gone = [&](int species, std::uint32_t id) {
+                return species == 0 && !std::binary_search(ids.begin(), ids.end(), id);
+            };
+            aside.forget([&](std::uint32_t i, std::uint32_t j) { return gone(s(), i) || gone(q(), j); });
+        });
+        resized();
     }
     /// Whether lists may miss a pair of positions up to x + v t + a t2. Two mobile particles close in by no more than the
     /// diagonal of the box of all displacements, one on a marker by no more than the largest of them.
@@ -164,7 +186,11 @@ public:
         if constexpr (M::moves) marker += e.wall_moved + t * e.wall_speed;
         return pair > marker ? pair : marker;
     }
-    void forget_lists() { have_lists_ = false, sorted_markers_ = false, kick_rates_ = false; }
+    void forget_lists()
+    {
+        set_aside();
+        have_lists_ = false, sorted_markers_ = false, kick_rates_ = false;
+    }
     /// Whether the kick rates are those of the present state: an integrator may begin with them.
     [[nodiscard]] bool kick_rates_current() const { return kick_rates_; }
     void keep_kick_rates() { kick_rates_ = true; }
@@ -308,6 +334,11 @@ public:
     /// Half the sum over directed pairs of what the terms of contact store, energy(ij) [J]; lists must be current.
     [[nodiscard]] double pair_energy() const
     {
+        return pair_energy([](std::size_t, std::size_t) { return 0.5; });
+    }
+    /// The same with the share of the directed pair of particles i, j that counts; an image counts as its particle.
+    [[nodiscard]] double pair_energy([[maybe_unused]] auto const& share) const
+    {
         auto const& p = mobile();
         auto const& images = species<0>().bins.images();
         const std::size_t n = p.size();
@@ -329,11 +360,14 @@ public:
                             1;
                     const std::size_t i =
                         first + std::size_t(lists.target[block * std::size_t(width<V>) + slot % std::size_t(width<V>)]);
-                    auto ri = double_record(p, i), rj = double_record(p, j < n ? j : std::size_t(images.of[j - n - 1]));
+                    const std::size_t of_j = j < n ? j : std::size_t(images.of[j - n - 1]);
+                    const double part = share(i, of_j);
+                    if (part == 0) continue;
+                    auto ri = double_record(p, i), rj = double_record(p, of_j);
                     if (j > n) rj[position] += shift_of(images.code[j - n - 1], grid_);
                     const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, ui, rj, ui);
                     detail::each_in(terms_, [&](auto const& t) {
-                        if constexpr (requires { t.energy(ij); }) mine.add(0.5 * t.energy(ij));
+                        if constexpr (requires { t.energy(ij); }) mine.add(part * t.energy(ij));
                     });
                 }
                 const std::lock_guard hold(lock);
@@ -376,10 +410,11 @@ public:
             each_species([&](auto q) {
                 constexpr int values = kept_values<s(), q()>;
                 if constexpr (values > 0) {
-                    PairMemory<T, kept_values<s(), q()>> now;
-                    now.take(lists<s(), q()>(), memory_[std::size_t(s() * species_count + q())],
-                             species<s()>().particles, species<s()>().bins, species<q()>().particles,
-                             species<q()>().bins, width<V>);
+                    auto now = std::get<std::size_t(s() * species_count + q())>(aside_);
+                    if (have_lists_)
+                        now.take(lists<s(), q()>(), memory_[std::size_t(s() * species_count + q())],
+                                 species<s()>().particles, species<s()>().bins, species<q()>().particles,
+                                 species<q()>().bins, width<V>);
                     for (auto const& pair : now.pairs()) {
                         std::uint64_t h =
                             mix(mix(mix(std::uint64_t(s() * species_count + q()) + 17) + pair.i) + pair.j);
@@ -441,6 +476,17 @@ public:
 
 private:
     using Interaction = typename M::Interaction;
+    /// Whether there are as many particles as when the lists were built.
+    [[nodiscard]] bool lists_know_all() const
+    {
+        bool all = true;
+        each_species([&](auto s) {
+            auto const& x = species<s()>();
+            const std::size_t cells = x.bins.cells();
+            all = all && x.particles.size() == (cells > 0 ? std::size_t(x.bins.end(cells - 1)) : 0);
+        });
+        return all;
+    }
     static constexpr bool has_pair_energy = []<class... X>(std::tuple<X...> const*) {
         return (false || ... || requires { X::stores_energy; });
     }(static_cast<typename M::Terms const*>(nullptr));
