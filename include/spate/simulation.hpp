@@ -8,6 +8,7 @@
 #include "spate/boundary/boundary.hpp"
 #include "spate/boundary/motion.hpp"
 #include "spate/integrator/integrator.hpp"
+#include "spate/measure/exchanged.hpp"
 #include "spate/measure/nearest_image.hpp"
 #include "spate/measure/wall_force.hpp"
 #include "spate/measure/watch.hpp"
@@ -70,6 +71,7 @@ public:
     using Engine = System<P, B, Workers, Precision>;
     static constexpr bool has_contacts = Set<Engine::M::wall_adds>::template contains<Acceleration>;
     using Point = Vec<dim, double>;
+    using Mobile = typename Engine::template ParticlesOf<0>;
 
     [[gnu::cold]] Simulation(P physics, I integrator, B boundary, Workers backend = {}, Precision = {}, W watch = {},
                              Neighbours neighbours = neighbours_for<typename Engine::M::Interaction>())
@@ -108,6 +110,7 @@ public:
         complete(spacing);
         set_mass(spacing);
         auto& p = system_.mobile();
+        system_.set_aside();
         const std::size_t first = p.size();
         std::size_t count = 1;
         for (auto k : n) count *= std::size_t(k);
@@ -142,15 +145,69 @@ public:
     /// One particle; its index until the next step.
     std::size_t add(Point const& x, Point const& v = {})
     {
-        auto& p = system_.mobile();
-        const std::size_t i = p.size();
-        p.resize(i + 1);
-        p.put(position, i, x);
-        begin(p, i, Box<dim>{x, x}, nullptr);
-        p.put(velocity, i, v);
+        system_.set_aside();
         prepared_ = false;
+        return append(system_.mobile(), x, v);
+    }
+    /// Room for particles that are to enter.
+    [[nodiscard]] Mobile newcomers() const
+    {
+        Mobile more;
+        for_each(Mobile::uniform, [&](auto f) { more.value(f) = system_.mobile().value(f); });
+        return more;
+    }
+    /// One particle among newcomers, as add() begins it.
+    std::size_t append(Mobile& to, Point const& x, Point const& v = {}) const
+    {
+        const std::size_t i = to.size();
+        to.resize(i + 1);
+        to.put(position, i, x);
+        begin(to, i, Box<dim>{x, x}, nullptr);
+        to.put(velocity, i, v);
         return i;
     }
+    /// Between two steps newcomers enter, in their order and with ids that nobody had before; nobody touches them yet.
+    [[gnu::cold]] Amount<dim> enter(Mobile const& more)
+    {
+        static_assert(Engine::alone, "spate: particles enter and leave on one rank only");
+        if (!prepared_) prepare();
+        if (more.empty()) return {};
+        auto& p = system_.mobile();
+        system_.set_aside();
+        const std::size_t first = p.size();
+        p.resize(first + more.size());
+        for_each(Mobile::fields, [&](auto f) {
+            for (std::size_t c = 0; c < std::size(p.column(f)); ++c)
+                std::copy_n(more.column(f)[c].begin(), more.size(), p.column(f)[c].begin() + std::ptrdiff_t(first));
+        });
+        check_particles();
+        check_places(first);
+        std::vector<char> is(p.size(), 0);
+        std::fill(is.begin() + std::ptrdiff_t(first), is.end(), char(1));
+        const Amount<dim> a = amount_of(is, false);
+        system_.resized();
+        exchanged_.entered += a, exchanged_.moment += a.mass * time_;
+        return a;
+    }
+    /// Between two steps the particles leave for which leaves(particles, i) holds: theirs is what is returned.
+    Amount<dim> remove(auto const& leaves)
+    {
+        static_assert(Engine::alone, "spate: particles enter and leave on one rank only");
+        if (!prepared_) prepare();
+        std::vector<char> is;
+        if (!find(leaves, is)) return {};
+        make_lists_current(); // for their contacts; may sort
+        find(leaves, is);
+        const Amount<dim> a = amount_of(is, true);
+        std::vector<std::int32_t> stay;
+        for (std::size_t i = 0; i < is.size(); ++i)
+            if (is[i] == 0) stay.push_back(std::int32_t(i));
+        system_.keep(stay);
+        exchanged_.left += a, exchanged_.moment -= a.mass * time_;
+        return a;
+    }
+    /// What has entered and left.
+    [[nodiscard]] Exchanged<dim> const& exchanged() const { return exchanged_; }
     /// Tells the scene that particles were changed by hand.
     [[gnu::cold]] void prepare()
     {
@@ -176,7 +233,8 @@ public:
         require(std::isfinite(o.until) || o.steps < std::numeric_limits<std::int64_t>::max(), "until", o.until,
                 "a finite end time [s], or a number of steps");
     }
-    /// Steps until the end time or the number of steps; outputs have begin(sim), step(sim), end(sim).
+    /// Steps until the end time or the number of steps; outputs have begin(sim), step(sim), end(sim). What changes the scene
+    /// between two steps, such as a Pour, has before_step(sim) besides.
     template <class... Output>
     RunReport const& run(RunOptions const& o, Output&&... output)
     {
@@ -188,6 +246,7 @@ public:
             o.steps > std::numeric_limits<std::int64_t>::max() - step_ ? o.steps : step_ + o.steps;
         try {
             while (time_ < o.until && step_ < last && !interrupted()) {
+                (before_step(output), ...);
                 step(o);
                 (output.step(*this), ...);
             }
@@ -268,11 +327,7 @@ public:
     /// Whether a Stop has ended the run: the state is left as it was found, and nothing brings it up to date.
     [[nodiscard]] bool stopped() const { return stopped_; }
     /// Of the mobile particles; lists must be current where contacts store energy.
-    [[nodiscard]] Energy energy() const
-    {
-        if constexpr (has_equation_of_state<P>) return energy_of(system_, &equation_of_state(physics()), g_);
-        else return energy_of(system_, static_cast<void const*>(nullptr), g_);
-    }
+    [[nodiscard]] Energy energy() const { return energy_in(system_); }
     /// sum m v over the mobile particles [kg m/s], each component exact.
     [[nodiscard]] Point momentum() const
     {
@@ -322,6 +377,12 @@ public:
         f("mach_max", r.mach), f("density_change_max", r.density_change), f("energy_rise_max", r.energy_rise);
         f("energy_reference", r.energy_reference), f("kinetic_start", r.start.kinetic);
         f("potential_start", r.start.potential), f("internal_start", r.start.internal);
+        f("exchanged_moment", self.exchanged_.moment);
+        for (auto* a : {&self.exchanged_.entered, &self.exchanged_.left}) {
+            const std::string side = a == &self.exchanged_.left ? "left_" : "entered_";
+            f(side + "particles", a->particles), f(side + "mass", a->mass), f(side + "energy", a->energy);
+            for (int c = 0; c < dim; ++c) f(along_axis(side + "momentum", c), a->momentum[c]);
+        }
         Engine::numbers_of(self.system_, f);
     }
     /// f(name, value) for what the scene was put together with; a scene that differs in one of them is another scene.
@@ -399,6 +460,42 @@ private:
     }(static_cast<typename P::Terms const*>(nullptr));
     static constexpr bool needs_acceleration = has_equation_of_state<P> || I::ahead_acceleration > 0;
 
+    void before_step([[maybe_unused]] auto& output)
+    {
+        if constexpr (requires { output.before_step(*this); }) output.before_step(*this);
+    }
+    /// Whether there is any; `is` tells which.
+    bool find(auto const& leaves, std::vector<char>& is) const
+    {
+        auto const& p = system_.mobile();
+        const std::size_t n = p.size();
+        is.assign(n, 0);
+        std::atomic<bool> any = false;
+        system_.backend().for_each((n + Engine::task - 1) / Engine::task, [&](std::size_t k) {
+            bool mine = false;
+            for (std::size_t i = k * Engine::task, end = std::min(n, (k + 1) * Engine::task); i < end; ++i)
+                if (leaves(p, i)) is[i] = 1, mine = true;
+            if (mine) any = true;
+        });
+        return any;
+    }
+    [[gnu::cold]] Amount<dim> amount_of(std::vector<char> const& is, bool contacts) const
+    {
+        auto const& p = system_.mobile();
+        const Some<Engine> some{system_, is, contacts};
+        Amount<dim> a;
+        a.particles = std::int64_t(some.sum([](std::size_t) { return 1.0; }));
+        a.mass = some.sum([&](std::size_t i) { return p.at(mass, i); });
+        for (int c = 0; c < dim; ++c)
+            a.momentum[c] = some.sum([&](std::size_t i) { return p.at(mass, i) * p.at(velocity, i)[c]; });
+        a.energy = energy_in(some).total();
+        return a;
+    }
+    [[nodiscard]] Energy energy_in(auto const& particles) const
+    {
+        if constexpr (has_equation_of_state<P>) return energy_of(particles, &equation_of_state(physics()), g_);
+        else return energy_of(particles, static_cast<void const*>(nullptr), g_);
+    }
     [[gnu::cold]] static P const& checked(P const& physics, B const& boundary, Workers const& backend,
                                           Neighbours const& n, W const& watch)
     {
@@ -449,7 +546,7 @@ private:
         }
     }
     template <class Particles, class Start>
-    void begin(Particles& p, std::size_t i, [[maybe_unused]] Box<dim> const& box, [[maybe_unused]] Start start)
+    void begin(Particles& p, std::size_t i, [[maybe_unused]] Box<dim> const& box, [[maybe_unused]] Start start) const
     {
         if constexpr (has_equation_of_state<P> && Particles::template has<Density>)
             p.put(density, i, equation_of_state(physics()).rho0);
@@ -582,18 +679,19 @@ private:
                     "above 0 [kg]; the spacing of a fill sets it");
     }
     /// No particle starts beyond a wall, or is too large for the lists.
-    [[gnu::cold]] void check_places() const
+    [[gnu::cold]] void check_places(std::size_t first = 0) const
     {
         auto const& p = system_.mobile();
         using Q = std::remove_cvref_t<decltype(p)>;
-        const std::size_t i = detail::first_by_id(
-            p, [&](std::size_t k) { return system_.boundary().template beyond<dim>(p.at(position, k)) > 0; });
+        const std::size_t i = detail::first_by_id(p, [&](std::size_t k) {
+            return k >= first && system_.boundary().template beyond<dim>(p.at(position, k)) > 0;
+        });
         if (i < p.size())
             throw BadInput("position of particle " + std::to_string(p.id()[i]),
                            text(system_.boundary().template beyond<dim>(p.at(position, i))) + " m beyond a wall",
                            "inside the walls");
         if constexpr (Set<Q::fields>::template contains<Radius> && requires { physics().interaction.largest; })
-            for (std::size_t k = 0; k < p.size(); ++k)
+            for (std::size_t k = first; k < p.size(); ++k)
                 require(p.at(radius, k) <= physics().interaction.largest,
                         "radius of particle " + std::to_string(p.id()[k]), p.at(radius, k),
                         "at most the interaction's largest, " + text(physics().interaction.largest) + " m");
@@ -711,12 +809,14 @@ private:
     {
         if (driven()) return;
         const Energy e = energy();
+        const double came = exchanged_.energy();
         if (report_.energy_reference == 0) {
-            report_.start = e;
+            report_.start = e, came_at_start_ = came;
             report_.energy_reference = reference(e);
         }
+        if (exchanged_.any()) report_.energy_reference = std::max(report_.energy_reference, reference(e));
         if (report_.energy_reference == 0) return;
-        const double rise = (e.total() - report_.start.total()) / report_.energy_reference;
+        const double rise = (e.total() - report_.start.total() - (came - came_at_start_)) / report_.energy_reference;
         report_.energy_rise = std::max(report_.energy_rise, rise);
         if (rise > watch_.warn && !warned_) warn_of_energy(rise);
         // What is measured of a bounded scheme oscillates by a known amount.
@@ -757,6 +857,8 @@ private:
     Vec<dim, double> g_;
     Stiffness stiffness_;
     RunReport report_;
+    Exchanged<dim> exchanged_;
+    double came_at_start_ = 0; ///< energy that particles had brought when the watch began [J]
     std::function<bool()> interrupted_ = [] { return false; };
     double time_ = 0, dt_ = 0, free_dt_ = 0, first_dt_ = 0;
     std::string_view criterion_ = "none";

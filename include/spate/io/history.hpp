@@ -113,6 +113,7 @@ public:
     {
         every_.notes("history", f);
         f("history_since", so_far_.since), f("history_at", so_far_.at), f("history_start", so_far_.start);
+        f("history_moment", so_far_.moment);
         f("history_written", so_far_.written);
         for (std::size_t c = 0; c < so_far_.wall.size(); ++c) {
             const std::string axis = std::to_string(c);
@@ -125,7 +126,8 @@ private:
     struct SoFar {
         double since = 0, at = 0;                    ///< times of the first and the last row [s]
         std::array<std::array<double, 2>, 3> wall{}; ///< by axis: force of the walls at the last row [N], impulse [N s]
-        double start = 0;                            ///< total energy of the first row [J]
+        double start = 0;                            ///< total energy of the first row, less what had come in before [J]
+        double moment = 0;                           ///< of mass that had entered before the first row [kg s]
         std::int64_t written = -1;                   ///< step of the last row
     };
     /// The rows of this run up to the last one of which so_far_ knows, if they are there; else none.
@@ -214,17 +216,24 @@ private:
     {
         scene.refresh();
         const auto e = scene.energy();
-        if (so_far_.written < 0) so_far_.start = e.total(), so_far_.since = scene.time();
+        const auto came = scene.exchanged(); // with particles that entered and left
+        if (so_far_.written < 0) {
+            so_far_.start = e.total() - came.energy(), so_far_.since = scene.time();
+            so_far_.moment = came.moment - came.mass() * so_far_.since;
+        }
         const auto extremes = scene.system().extremes();
         detail::Row row;
         row.add(scene.steps());
         row.add(scene.time());
         row.add(scene.dt());
         row.add(scene.criterion());
-        for (double part : {e.kinetic, e.potential, e.internal, so_far_.start - e.total()}) row.add(part);
+        for (double part : {e.kinetic, e.potential, e.internal, so_far_.start - (e.total() - came.energy())})
+            row.add(part);
         row.add(scene.momentum());
         if constexpr (has_density<Scene>) row.add(scene.volume());
-        row.add((scene.total_mass() * (scene.time() - so_far_.since)) * scene.gravity());
+        const double changed = // 0 where the mass has always been the same
+            came.moment - came.mass() * so_far_.since - so_far_.moment;
+        row.add((scene.total_mass() * (scene.time() - so_far_.since) - changed) * scene.gravity());
         if constexpr (has_markers<Scene>) row.add(wall_impulse(scene));
         row.add(extremes.speed);
         if constexpr (has_density<Scene>) row.add(extremes.least_density), row.add(extremes.most_density);

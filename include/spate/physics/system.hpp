@@ -133,13 +133,12 @@ public:
     void rebuild(bool wide = false)
     {
         wrap();
-        set_memory_aside();
         if constexpr (!alone) {
             each_species([&](auto s) { remember_places<s()>(); });
             if (have_lists_ && balance_due()) cut_by_cost();
-            go_home(true);
         }
-        have_lists_ = false; // sorting may stop: the lists would be of another order
+        set_aside(); // sorting may stop: the lists would be of another order
+        if constexpr (!alone) go_home(true);
         each_species([&](auto s) {
             auto& x = species<s()>();
             if (s() != 0 && sorted_markers_ && !M::moves) return;
@@ -155,7 +154,7 @@ public:
     /// Gives cells to other ranks by new cuts; lists, their skins, and when they are built anew stay as they are.
     void redistribute(Shares<dim> shares)
     {
-        set_memory_aside();
+        set_aside();
         parts_.use(std::move(shares));
         std::array<std::vector<double>, std::size_t(species_count)> skin, of_patch;
         each_species([&](auto s) { skin[std::size_t(s())] = skins_by_particle<s()>(); });
@@ -175,6 +174,31 @@ public:
         meet_others();
         if (neighbours_.local && any_pairs) look_around();
         build_lists();
+    }
+    /// Takes what terms keep of pairs out of lists that are about to go; to call before particles come, go or change places.
+    void set_aside()
+    {
+        if (!have_lists_ || !lists_know_all()) return;
+        each_memory([&](auto s, auto q, auto& aside, auto& memory) {
+            aside.take(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
+                       species<q()>().particles, species<q()>().bins, width<V>, foreign<q()>());
+        });
+        have_lists_ = false;
+    }
+    /// Only mobile particles order[0], order[1], ... remain; what was kept of pairs with the others is forgotten.
+    [[gnu::cold]] void keep(std::vector<std::int32_t> const& order)
+    {
+        set_aside();
+        mobile().keep(order);
+        std::vector<std::uint32_t> ids = mobile().id();
+        std::sort(ids.begin(), ids.end());
+        each_memory([&](auto s, auto q, auto& aside, auto&) {
+            const auto gone = [&](int species, std::uint32_t id) {
+                return species == 0 && !std::binary_search(ids.begin(), ids.end(), id);
+            };
+            aside.forget([&](std::uint32_t i, std::uint32_t j) { return gone(s(), i) || gone(q(), j); });
+        });
+        resized();
     }
     /// Whether lists may miss a pair of positions up to x + v t + a t2. Two mobile particles close in by no more than the
     /// diagonal of the box of all displacements, one on a marker by no more than the largest of them.
@@ -200,7 +224,11 @@ public:
         if constexpr (M::moves) marker += e.wall_moved + t * e.wall_speed;
         return pair > marker ? pair : marker;
     }
-    void forget_lists() { have_lists_ = false, sorted_markers_ = false, kick_rates_ = false; }
+    void forget_lists()
+    {
+        set_aside();
+        have_lists_ = false, sorted_markers_ = false, kick_rates_ = false;
+    }
     /// Whether the kick rates are those of the present state: an integrator may begin with them.
     [[nodiscard]] bool kick_rates_current() const { return kick_rates_; }
     void keep_kick_rates() { kick_rates_ = true; }
@@ -218,7 +246,7 @@ public:
     {
         f("have_lists", self.have_lists_), f("kick_rates_current", self.kick_rates_);
         f("rebuilds", self.rebuilds_), f("evaluations", self.evaluations_);
-        f("pairs_evaluated", self.pairs_evaluated_);
+        f("pairs_evaluated", self.pairs_evaluated_), f("memory_age", self.due_);
     }
     /// The place of the patch that holds x.
     static Index<dim> place(Vec<dim, double> const& x, Grid<dim> const& grid) { return Skins<dim>::place(x, grid); }
@@ -408,6 +436,11 @@ public:
     /// Half the sum over directed pairs of what the terms of contact store, energy(ij) [J]; lists must be current.
     [[nodiscard]] double pair_energy() const
     {
+        return pair_energy([](std::size_t, std::size_t) { return 0.5; });
+    }
+    /// The same with the share of the directed pair of particles i, j that counts; an image counts as its particle.
+    [[nodiscard]] double pair_energy([[maybe_unused]] auto const& share) const
+    {
         auto const& p = mobile();
         const std::size_t n = p.size();
         ExactSum total;
@@ -429,10 +462,12 @@ public:
                             1;
                     const std::size_t i =
                         first + std::size_t(lists.target[block * std::size_t(width<V>) + slot % std::size_t(width<V>)]);
+                    const double part = share(i, particle_of(j));
+                    if (part == 0) continue;
                     auto ri = double_record(p, i), rj = double_record_of(j);
                     const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, ui, rj, ui);
                     detail::each_in(terms_, [&](auto const& t) {
-                        if constexpr (requires { t.energy(ij); }) mine.add(0.5 * t.energy(ij));
+                        if constexpr (requires { t.energy(ij); }) mine.add(part * t.energy(ij));
                     });
                 }
                 const std::lock_guard hold(lock);
@@ -550,9 +585,10 @@ public:
     template <int s, int q>
     [[nodiscard, gnu::cold]] auto kept_of_pairs() const
     {
-        PairMemory<T, kept_values<s, q>> now;
-        now.take(lists<s, q>(), memory_[std::size_t(s * species_count + q)], species<s>().particles, species<s>().bins,
-                 species<q>().particles, species<q>().bins, width<V>, foreign<q>());
+        auto now = std::get<std::size_t(s * species_count + q)>(aside_);
+        if (have_lists_)
+            now.take(lists<s, q>(), memory_[std::size_t(s * species_count + q)], species<s>().particles,
+                     species<s>().bins, species<q>().particles, species<q>().bins, width<V>, foreign<q>());
         return now.pairs();
     }
     /// Makes room for the particles that have been added since.
@@ -644,6 +680,17 @@ private:
         return e;
     }
     using Interaction = typename M::Interaction;
+    /// Whether there are as many particles as when the lists were built.
+    [[nodiscard]] bool lists_know_all() const
+    {
+        bool all = true;
+        each_species([&](auto s) {
+            auto const& x = species<s()>();
+            const std::size_t cells = x.bins.cells();
+            all = all && x.particles.size() == (cells > 0 ? std::size_t(x.bins.end(cells - 1)) : 0);
+        });
+        return all;
+    }
     static constexpr bool has_pair_energy = []<class... X>(std::tuple<X...> const*) {
         return (false || ... || requires { X::stores_energy; });
     }(static_cast<typename M::Terms const*>(nullptr));
@@ -663,6 +710,13 @@ private:
             total += mine;
         });
         return ranks().all(total, agree::Sum{}).value();
+    }
+    /// The mobile particle behind a record other than the sentinel; of others' there is none: n.
+    std::size_t particle_of(std::size_t j) const
+    {
+        auto const& of = species<0>().bins.images().of;
+        const std::size_t n = mobile().size();
+        return j < n ? j : j - n - 1 < of.size() ? std::size_t(of[j - n - 1]) : n;
     }
     /// Of the mobile particle behind a record other than the sentinel, as it is now.
     auto double_record_of(std::size_t j) const
@@ -1062,14 +1116,6 @@ private:
         for (std::size_t i = first; i < last; i += std::size_t(width<V>))
             store(y + i, V(load<V>(y0 + i) + V(dt) * load<V>(rate + i)));
     }
-    void set_memory_aside()
-    {
-        each_memory([&](auto s, auto q, auto& aside, auto& memory) {
-            if (have_lists_)
-                aside.take(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
-                           species<q()>().particles, species<q()>().bins, width<V>, foreign<q()>());
-        });
-    }
     template <int s>
     void remember_places()
     {
@@ -1103,6 +1149,7 @@ private:
         each_memory([&](auto s, auto q, auto& aside, auto& memory) {
             aside.give(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
                        species<q()>().particles, species<q()>().bins, width<V>, foreign<q()>());
+            aside.clear(); // it would be old news to lists to come
         });
         have_lists_ = true;
     }
