@@ -163,7 +163,9 @@ public:
             const double side = e.most_move[c] - e.least_move[c] + t * (e.most_velocity[c] - e.least_velocity[c]);
             diagonal2 += side * side;
         }
-        const double pair = std::sqrt(diagonal2) + 2 * t2 * e.acceleration;
+        double apart = std::sqrt(diagonal2);
+        if constexpr (!M::markers) apart = std::min(apart, 2 * (e.moved + t * e.speed)); // two that meet head-on
+        const double pair = apart + 2 * t2 * e.acceleration;
         double marker = M::markers ? e.moved + t * e.speed + t2 * e.acceleration : 0;
         if constexpr (M::moves) marker += e.wall_moved + t * e.wall_speed;
         return pair > marker ? pair : marker;
@@ -312,34 +314,11 @@ public:
     /// Half the sum over directed pairs of what the terms of contact store, energy(ij) [J]; lists must be current.
     [[nodiscard]] double pair_energy() const
     {
-        auto const& p = mobile();
-        auto const& images = species<0>().bins.images();
-        const std::size_t n = p.size();
         ExactSum total;
         std::mutex lock;
         if constexpr (M::planner.meet(0, 0) && has_pair_energy)
             backend_.for_each(species<0>().bins.cells(), [&](std::size_t cell) {
-                auto const& lists = this->template lists<0, 0>().of_cell(cell);
-                const auto first = std::size_t(species<0>().bins.begin(cell));
-                const auto ui = p.template uniforms<double>();
-                ExactSum mine;
-                for (std::size_t slot = 0; slot < lists.index.size(); ++slot) {
-                    const auto j = this->template lists<0, 0>().number(lists.index[slot]);
-                    if (j == n) continue;
-                    std::size_t block = 0;
-                    const std::size_t row = slot / std::size_t(width<V>);
-                    block = std::size_t(std::upper_bound(lists.begin.begin(), lists.begin.end(), std::int32_t(row)) -
-                                        lists.begin.begin()) -
-                            1;
-                    const std::size_t i =
-                        first + std::size_t(lists.target[block * std::size_t(width<V>) + slot % std::size_t(width<V>)]);
-                    auto ri = double_record(p, i), rj = double_record(p, j < n ? j : std::size_t(images.of[j - n - 1]));
-                    if (j > n) rj[position] += shift_of(images.code[j - n - 1], grid_);
-                    const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, ui, rj, ui);
-                    detail::each_in(terms_, [&](auto const& t) {
-                        if constexpr (requires { t.energy(ij); }) mine.add(0.5 * t.energy(ij));
-                    });
-                }
+                const ExactSum mine = pair_energy_of(cell);
                 const std::lock_guard hold(lock);
                 total += mine;
             });
@@ -503,6 +482,38 @@ private:
     static constexpr bool has_pair_energy = []<class... X>(std::tuple<X...> const*) {
         return (false || ... || requires { X::stores_energy; });
     }(static_cast<typename M::Terms const*>(nullptr));
+    /// Of the targets in a cell: what is out of range is passed over.
+    [[nodiscard]] ExactSum pair_energy_of(std::size_t cell) const
+    {
+        auto const& p = mobile();
+        auto const& bins = species<0>().bins;
+        auto const& images = bins.images();
+        auto const& lists = this->template lists<0, 0>().of_cell(cell);
+        constexpr auto W = std::size_t(width<V>);
+        constexpr auto stride = std::uint32_t(Layout<dim, Set<M::template record<0>()>>::stride);
+        const std::size_t n = p.size(), first = std::size_t(bins.begin(cell));
+        const auto ui = p.template uniforms<double>();
+        const double range2 = physics_.interaction.range() * physics_.interaction.range();
+        ExactSum sum;
+        for (std::size_t block = 0; block + 1 < lists.begin.size(); ++block)
+            for (auto row = std::size_t(lists.begin[block]); row < std::size_t(lists.begin[block + 1]); ++row)
+                for (std::size_t lane = 0; lane < W; ++lane) {
+                    const std::size_t j = std::uint32_t(lists.index[row * W + lane]) / stride;
+                    if (j == n) continue;
+                    const std::size_t i = first + std::size_t(lists.target[block * W + lane]);
+                    const std::size_t of = j < n ? j : std::size_t(images.of[j - n - 1]);
+                    Vec<dim, double> x = p.at(position, i) - p.at(position, of);
+                    if (j > n) x -= shift_of(images.code[j - n - 1], grid_);
+                    if (x.squaredNorm() > range2 * (1 + 1e-6)) continue;
+                    auto ri = double_record(p, i), rj = double_record(p, of);
+                    if (j > n) rj[position] += shift_of(images.code[j - n - 1], grid_);
+                    const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, ui, rj, ui);
+                    detail::each_in(terms_, [&](auto const& t) {
+                        if constexpr (requires { t.energy(ij); }) sum.add(0.5 * t.energy(ij));
+                    });
+                }
+        return sum;
+    }
     /// The exact sum of what `fill` writes, a stretch of particles at a time; compiled once for all that is summed.
     double sum_of(std::function<void(std::size_t, std::size_t, double*)> const& fill) const
     {
