@@ -50,6 +50,7 @@ template <class Particles, class F>
     if constexpr (!Particles::template has<F>)
         for (int c = 0; c < column.components; ++c) column.values.push_back(std::numeric_limits<float>::quiet_NaN());
     else if constexpr (F::rank == 0) column.values.push_back(float(p.at(field, i)));
+    else if constexpr (F::axial && Particles::dim < 3) column.values.push_back(float(p.at(field, i)[0]));
     else {
         const auto v = p.at(field, i);
         for (int c = 0; c < 3; ++c) column.values.push_back(c < Particles::dim ? float(v[c]) : 0.0F);
@@ -67,7 +68,10 @@ template <class Scene>
     Cloud cloud;
     cloud.time = scene.time();
     cloud.step = scene.steps();
-    for_each(fields, [&]<class F>(F) { cloud.columns.push_back({std::string(F::name), F::rank == 0 ? 1 : 3, {}}); });
+    for_each(fields, [&]<class F>(F) {
+        const bool one = F::rank == 0 || (F::axial && Mobile::dim < 3);
+        cloud.columns.push_back({std::string(F::name), one ? 1 : 3, {}});
+    });
     scene.system().each_species([&](auto s) {
         auto const& p = scene.system().template species<s()>().particles;
         for (const std::size_t i : detail::by_id(p.id())) {

@@ -14,6 +14,7 @@
 #include <atomic>
 #include <functional>
 #include <mutex>
+#include <optional>
 
 namespace spate {
 
@@ -187,13 +188,18 @@ public:
     [[nodiscard]] std::int64_t pairs_evaluated() const { return pairs_evaluated_; }
 
     // ---- rates
-    /// Brings the rates of the asked fields up to date in every species that has them.
+    /// Brings the rates of the asked fields up to date in every species that has them. What terms keep of pairs comes along
+    /// to where the positions are; but not between save() and advance_saved(), where a state is only tried.
     template <class... F>
-    void rates(Fields<F...>)
+    void rates(Fields<F...> asked)
     {
-        static constexpr auto plan = M::template rates_plan<Fields<F...>>();
-        run<plan>();
-        if constexpr (plan.sweeps() > 0) ++evaluations_, pairs_evaluated_ += pairs();
+        evaluate(asked, Carry{due_, !trial_, 1});
+    }
+    /// The rates with which a step of dt from the saved state is made: what terms keep of pairs comes along to its end.
+    template <class... F>
+    void rates(Fields<F...> asked, double dt)
+    {
+        evaluate(asked, Carry{due_, true, due_ > 0 ? dt / due_ : 1});
     }
     /// Brings what terms derive from the state (pressure, ...) up to date.
     void refresh()
@@ -244,15 +250,18 @@ public:
     void advance(Fields<F...> set, double dt)
     {
         advance_from<false>(dt, set);
+        if (Fields<F...>::template contains<Position>) due_ += dt, moved_ += dt;
     }
     template <class... F, class... G>
     void advance(Fields<F...> first, Fields<G...> then, double dt)
     {
         advance_from<false>(dt, first, then);
+        if (Fields<F..., G...>::template contains<Position>) due_ += dt, moved_ += dt;
     }
     /// Remembers all evolving fields as the start of the step.
     void save()
     {
+        trial_ = true, moved_ = 0;
         each_species([&](auto s) {
             auto& x = species<s()>();
             for_each(M::template evolving<s()>(), [&](auto f) {
@@ -266,7 +275,10 @@ public:
     void advance_saved(Fields<F...> first, Fields<G...> then, double dt)
     {
         advance_from<true>(dt, first, then);
+        due_ += dt - moved_, trial_ = false;
     }
+    /// The time by which positions are ahead of what terms keep of pairs [s].
+    [[nodiscard]] double memory_age() const { return due_; }
 
     // ---- measures
     /// \tparam with_acceleration  whether anyone asks for max |a|
@@ -412,13 +424,8 @@ public:
         });
         each_species([&](auto s) {
             each_species([&](auto q) {
-                constexpr int values = kept_values<s(), q()>;
-                if constexpr (values > 0) {
-                    PairMemory<T, kept_values<s(), q()>> now;
-                    now.take(lists<s(), q()>(), memory_[std::size_t(s() * species_count + q())],
-                             species<s()>().particles, species<s()>().bins, species<q()>().particles,
-                             species<q()>().bins, width<V>);
-                    for (auto const& pair : now.pairs()) {
+                if constexpr (kept_values < s(), q() >> 0) {
+                    for (auto const& pair : kept_of_pairs<s(), q()>()) {
                         std::uint64_t h =
                             mix(mix(mix(std::uint64_t(s() * species_count + q()) + 17) + pair.i) + pair.j);
                         for (T value : pair.value) {
@@ -432,6 +439,15 @@ public:
             });
         });
         return total;
+    }
+    /// What terms keep of the directed pairs s <- q, in the order of their ids; pairs of which it is zero are not there.
+    template <int s, int q>
+    [[nodiscard, gnu::cold]] auto kept_of_pairs() const
+    {
+        PairMemory<T, kept_values<s, q>> now;
+        now.take(lists<s, q>(), memory_[std::size_t(s * species_count + q)], species<s>().particles, species<s>().bins,
+                 species<q>().particles, species<q>().bins, width<V>);
+        return now.pairs();
     }
     /// Makes room for the particles that have been added since.
     [[gnu::cold]] void resized()
@@ -605,6 +621,29 @@ private:
             if constexpr (((facts.writes | facts.adds) & M::mask(M::template evolving<0>())) != 0) kick_rates_ = false;
         }
     }
+    /// Whether a plan runs terms that keep something of pairs.
+    static constexpr bool keeps_something(auto const& plan)
+    {
+        Mask terms = 0;
+        for (int k = 0; k < plan.count; ++k)
+            if (plan.stage[std::size_t(k)].action == Action::sweep) terms |= plan.stage[std::size_t(k)].terms;
+        return [&]<class... X, std::size_t... t>(std::tuple<X...> const*, std::index_sequence<t...>) {
+            return (false || ... || (((terms >> t) & 1) != 0 && decltype(keeps<X>())::size > 0));
+        }(static_cast<typename M::Terms const*>(nullptr), std::make_index_sequence<std::size_t(M::terms)>{});
+    }
+    template <class... F>
+    void evaluate(Fields<F...>, [[maybe_unused]] Carry carry)
+    {
+        static constexpr auto plan = M::template rates_plan<Fields<F...>>();
+        if constexpr (keeps_something(plan)) {
+            carry_ = carry;
+            run<plan>();
+            carry_.reset();
+            if (carry.keep) due_ = carry.elapsed * (1 - carry.reach); // exact: reach is 1, or 2 at half a step
+        }
+        else run<plan>();
+        if constexpr (plan.sweeps() > 0) ++evaluations_, pairs_evaluated_ += pairs();
+    }
     template <auto const& plan>
     void run()
     {
@@ -641,7 +680,7 @@ private:
                     X zero;
                     if constexpr (decltype(f)::rank == 0) zero = V(0);
                     else
-                        for (int c = 0; c < dim; ++c) zero[c] = V(0);
+                        for (int c = 0; c < components<decltype(f), dim>; ++c) zero[c] = V(0);
                     p.template store_at<V>(f, i, zero);
                 });
                 detail_pass<terms>(p, i, std::make_index_sequence<std::size_t(M::terms)>{});
@@ -770,7 +809,12 @@ private:
     {
         auto const& x = species<q>();
         return Source<terms, Set<kept<s, q>()>, ParticlesOf<q>, std::remove_cvref_t<decltype(x.packed)>>{
-            x.particles, x.packed, lists<s, q>(), s == q, &memory_[std::size_t(s * species_count + q)]};
+            x.particles,
+            x.packed,
+            lists<s, q>(),
+            s == q,
+            &memory_[std::size_t(s * species_count + q)],
+            carry_.value_or(Carry{due_})};
     }
     /// The sets one after the other, a stretch of particles at a time: it is in the cache for the second set.
     template <bool from_start, class... Sets>
@@ -886,6 +930,9 @@ private:
     std::array<std::vector<Array<T>>, std::size_t(species_count* species_count)> memory_; ///< of pairs, by cell
     LocalSkins<dim, species_count> skins_;
     bool have_lists_ = false, sorted_markers_ = false, kick_rates_ = false, lost_ = false;
+    std::optional<Carry> carry_; ///< of sweeps for rates; to others what is kept of pairs is only shown
+    double due_ = 0, moved_ = 0; ///< time since what is kept of pairs was kept, since the step was saved [s]
+    bool trial_ = false;         ///< between save() and advance_saved()
     std::int64_t rebuilds_ = 0, evaluations_ = 0, pairs_evaluated_ = 0;
 };
 
