@@ -48,8 +48,7 @@ inline Start<2> scattered(std::size_t n, double radius, double fraction, double 
         const auto edge = std::size_t(std::ceil(std::sqrt(double(n))));
         const double a = L / double(edge);
         free = 0.45 * (a - 2 * radius);
-        for (std::size_t k = 0; k < n; ++k)
-            s.x.push_back({(double(k / edge) + 0.5) * a, (double(k % edge) + 0.5) * a});
+        for (std::size_t k = 0; k < n; ++k) s.x.push_back({(double(k / edge) + 0.5) * a, (double(k % edge) + 0.5) * a});
     }
     else {
         std::size_t rows = 0, columns = 0; // as far apart as can be
@@ -70,9 +69,10 @@ inline Start<2> scattered(std::size_t n, double radius, double fraction, double 
             s.x.push_back({(double(i) + 0.5 + 0.5 * double(j % 2)) * dx, (double(j) + 0.55) * dy});
         }
     }
-    spate::require(free > 0, "fraction", fraction,
-                   "what can be packed without overlaps: below 0.78 on the square lattice that is used up to 0.6, and below "
-                   "0.9 on the triangular one, less in a small box");
+    spate::require(
+        free > 0, "fraction", fraction,
+        "what can be packed without overlaps: below 0.78 on the square lattice that is used up to 0.6, and below "
+        "0.9 on the triangular one, less in a small box");
     for (int c = 0; c < 2; ++c)
         for (auto& x : s.x) x[c] += free * dice.uniform(-1, 1) * 0.7;
     for (std::size_t k = 0; k < n; ++k) {

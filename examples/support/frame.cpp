@@ -108,7 +108,8 @@ void Frame::Talk::contact(char const* integrator, double omega, double dt, doubl
 {
     if (quiet) return;
     const double time = std::numbers::pi / omega;
-    std::printf("contact time %.4g s, omega dt = %.4g, %.3g steps a contact: %s ", time, omega * dt, time / dt, integrator);
+    std::printf("contact time %.4g s, omega dt = %.4g, %.3g steps a contact: %s ", time, omega * dt, time / dt,
+                integrator);
     if (growth > 0)
         std::printf("multiplies the energy of a contact by %.5g\n", std::exp(2 * std::log1p(growth) * time / dt));
     else if (omega * dt < 2) std::printf("keeps the energy of a contact within about %.2g %%\n", 100 * error);

@@ -44,8 +44,7 @@ protected:
             if (scene.report().steps == 1) {
                 first_step(scene.dt(), scene.criterion());
                 if (const double omega = scene.stiffness().contact_frequency; omega > 0)
-                    contact(scene.integrator().name, omega, scene.dt(),
-                            scene.integrator().growth(omega * scene.dt()),
+                    contact(scene.integrator().name, omega, scene.dt(), scene.integrator().growth(omega * scene.dt()),
                             scene.integrator().energy_error(omega * scene.dt()));
             }
             warn(scene.report().warnings);

@@ -140,13 +140,14 @@ struct WallContact {
     void operator()(auto& i) const
     {
         using V = std::remove_cvref_t<decltype(i[radius])>;
-        each_contact<V>(i, [&](auto const& j, auto const& ij) __attribute__((always_inline)) {
-            detail_each([&]<class X>(X const& t) __attribute__((always_inline)) {
-                using Mask = std::remove_cvref_t<decltype(ij.mask)>;
-                const detail::SeenAtWall<X, std::remove_reference_t<decltype(i)>, Mask> seen{i, ij.mask};
-                t(seen, j, ij);
+        each_contact<V>(
+            i, [&](auto const& j, auto const& ij) __attribute__((always_inline)) {
+                detail_each([&]<class X>(X const& t) __attribute__((always_inline)) {
+                    using Mask = std::remove_cvref_t<decltype(ij.mask)>;
+                    const detail::SeenAtWall<X, std::remove_reference_t<decltype(i)>, Mask> seen{i, ij.mask};
+                    t(seen, j, ij);
+                });
             });
-        });
     }
 
 private:
@@ -154,7 +155,8 @@ private:
 
     [[gnu::always_inline]] void detail_each(auto const& f) const
     {
-        std::apply([&](auto const&... t) __attribute__((always_inline)) { (f(t), ...); }, terms);
+        std::apply(
+            [&](auto const&... t) __attribute__((always_inline)) { (f(t), ...); }, terms);
     }
     /// f(j, ij) for each contact: j as the terms see the wall, ij as the interaction sees a grain like i behind the surface.
     template <class V>
@@ -162,20 +164,21 @@ private:
     {
         const Vec<dim, V> x = i[position];
         const V r = i[radius];
-        surface.touched(at_rest<V>(x), r, [&](Foot<dim, V> at) __attribute__((always_inline)) {
-            if constexpr (moves) at.n = turned<V>(at.n);
-            constexpr double endless = 1e30;
-            Record<dim, V, std::remove_cv_t<decltype(of_wall)>> behind;
-            clear(behind);
-            behind[position] = x - (at.distance + r) * at.n;
-            if constexpr (moves && decltype(behind)::template has<Velocity>)
-                behind[velocity] = velocity_at<V>(x - at.distance * at.n);
-            auto wall = behind;
-            if constexpr (decltype(behind)::template has<Radius>) behind[radius] = r, wall[radius] = V(endless);
-            if constexpr (decltype(behind)::template has<Mass>) wall[mass] = V(endless);
-            const auto ij = interaction.template pair<V>(i, behind);
-            if (spate::any(ij.mask)) f(wall, ij);
-        });
+        surface.touched(
+            at_rest<V>(x), r, [&](Foot<dim, V> at) __attribute__((always_inline)) {
+                if constexpr (moves) at.n = turned<V>(at.n);
+                constexpr double endless = 1e30;
+                Record<dim, V, std::remove_cv_t<decltype(of_wall)>> behind;
+                clear(behind);
+                behind[position] = x - (at.distance + r) * at.n;
+                if constexpr (moves && decltype(behind)::template has<Velocity>)
+                    behind[velocity] = velocity_at<V>(x - at.distance * at.n);
+                auto wall = behind;
+                if constexpr (decltype(behind)::template has<Radius>) behind[radius] = r, wall[radius] = V(endless);
+                if constexpr (decltype(behind)::template has<Mass>) wall[mass] = V(endless);
+                const auto ij = interaction.template pair<V>(i, behind);
+                if (spate::any(ij.mask)) f(wall, ij);
+            });
     }
     template <class V>
     [[gnu::always_inline]] Vec<dim, V> at_rest(Vec<dim, V> const& x) const
@@ -219,11 +222,19 @@ namespace detail {
 template <class X>
 inline constexpr bool is_face = std::same_as<X, Face>;
 template <class X>
-inline constexpr bool is_solid = requires(X const x) { x.check(); } &&
-    (requires(X const x, Vec<1, double> y) { x.distance(y); } || requires(X const x, Vec<2, double> y) { x.distance(y); } ||
-     requires(X const x, Vec<3, double> y) { x.distance(y); });
+inline constexpr bool is_solid = requires(X const x)
+{
+    x.check();
+}
+&&(
+    requires(X const x, Vec<1, double> y) { x.distance(y); } ||
+    requires(X const x, Vec<2, double> y) { x.distance(y); } ||
+    requires(X const x, Vec<3, double> y) { x.distance(y); });
 template <class X>
-inline constexpr bool is_law = requires(X const x) { x(1.0); };
+inline constexpr bool is_law = requires(X const x)
+{
+    x(1.0);
+};
 
 /// Those of the arguments whose type `Is` picks.
 template <template <class> class Is, class... A>
@@ -246,7 +257,8 @@ struct IsTerm : std::bool_constant<!is_face<X> && !is_solid<X> && !is_law<X>> {}
 template <class None, class... X>
 constexpr auto only(std::tuple<X...> const& t, None none)
 {
-    static_assert(sizeof...(X) <= 1, "spate: a contact is with one solid, moving by one law; write one contact for each");
+    static_assert(sizeof...(X) <= 1,
+                  "spate: a contact is with one solid, moving by one law; write one contact for each");
     if constexpr (sizeof...(X) == 1) return std::get<0>(t);
     else return none;
 }
@@ -265,15 +277,13 @@ constexpr auto contact(A... a)
     using M = std::remove_cv_t<decltype(law)>;
     constexpr std::size_t N = std::tuple_size_v<std::remove_cv_t<decltype(faces)>>;
     static_assert(N == 0 || std::same_as<S, NoSolid>, "spate: a contact is with faces of the box or with a solid");
-    return [&]<class... T>(std::tuple<T...> const& terms)
-    {
+    return [&]<class... T>(std::tuple<T...> const& terms) {
         static_assert(sizeof...(T) > 0 && (PairTerm<T> && ...),
                       "spate: contact takes faces or a solid, a law of motion, and contact terms such as LinearSpring");
         ContactPart<N, S, M, T...> part{{}, solid, law, terms};
         std::apply([&](auto... f) { part.faces = std::array<Face, N>{f...}; }, faces);
         return part;
-    }
-    (detail::picked_of<detail::IsTerm>(a...));
+    }(detail::picked_of<detail::IsTerm>(a...));
 }
 
 } // namespace spate

@@ -89,8 +89,8 @@ public:
     template <class P>
     [[nodiscard]] auto terms(P const& physics) const requires(touches)
     {
-        return std::apply(
-            [&](auto const&... part) { return std::tuple{term_of(physics.interaction, part)...}; }, parts_);
+        return std::apply([&](auto const&... part) { return std::tuple{term_of(physics.interaction, part)...}; },
+                          parts_);
     }
 
     /// Whether any lane is through a plane that reflects.

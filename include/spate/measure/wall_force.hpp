@@ -29,9 +29,8 @@ struct WallForce {
             for (int c = 0; c < dim; ++c) sum[std::size_t(c)].add(-m * a[c]);
         };
         if constexpr (touched)
-            scene.system().wall_sums([&](std::size_t i, auto const& sums) {
-                push(scene.particles().at(mass, i), sums[acceleration]);
-            });
+            scene.system().wall_sums(
+                [&](std::size_t i, auto const& sums) { push(scene.particles().at(mass, i), sums[acceleration]); });
         else
             scene.system().template partial_sums<1>(
                 [&](std::size_t i, auto const& p) { push(p.at(mass, i), p.at(acceleration, i)); });

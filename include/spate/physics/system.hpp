@@ -219,7 +219,9 @@ public:
             const double side = e.most_move[c] - e.least_move[c] + t * (e.most_velocity[c] - e.least_velocity[c]);
             diagonal2 += side * side;
         }
-        const double pair = std::sqrt(diagonal2) + 2 * t2 * e.acceleration;
+        double apart = std::sqrt(diagonal2);
+        if constexpr (!M::markers) apart = std::min(apart, 2 * (e.moved + t * e.speed)); // two that meet head-on
+        const double pair = apart + 2 * t2 * e.acceleration;
         double marker = M::markers ? e.moved + t * e.speed + t2 * e.acceleration : 0;
         if constexpr (M::moves) marker += e.wall_moved + t * e.wall_speed;
         return pair > marker ? pair : marker;
@@ -441,35 +443,12 @@ public:
     /// The same with the share of the directed pair of particles i, j that counts; an image counts as its particle.
     [[nodiscard]] double pair_energy([[maybe_unused]] auto const& share) const
     {
-        auto const& p = mobile();
-        const std::size_t n = p.size();
         ExactSum total;
         std::mutex lock;
         if constexpr (M::planner.meet(0, 0) && has_pair_energy) {
             if constexpr (!alone) bring_records<0, M::mask(Interaction::reads & ParticlesOf<0>::fields)>();
             backend_.for_each(species<0>().bins.cells(), [&](std::size_t cell) {
-                auto const& lists = this->template lists<0, 0>().of_cell(cell);
-                const auto first = std::size_t(species<0>().bins.begin(cell));
-                const auto ui = p.template uniforms<double>();
-                ExactSum mine;
-                for (std::size_t slot = 0; slot < lists.index.size(); ++slot) {
-                    const auto j = this->template lists<0, 0>().number(lists.index[slot]);
-                    if (j == n) continue;
-                    std::size_t block = 0;
-                    const std::size_t row = slot / std::size_t(width<V>);
-                    block = std::size_t(std::upper_bound(lists.begin.begin(), lists.begin.end(), std::int32_t(row)) -
-                                        lists.begin.begin()) -
-                            1;
-                    const std::size_t i =
-                        first + std::size_t(lists.target[block * std::size_t(width<V>) + slot % std::size_t(width<V>)]);
-                    const double part = share(i, particle_of(j));
-                    if (part == 0) continue;
-                    auto ri = double_record(p, i), rj = double_record_of(j);
-                    const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, ui, rj, ui);
-                    detail::each_in(terms_, [&](auto const& t) {
-                        if constexpr (requires { t.energy(ij); }) mine.add(part * t.energy(ij));
-                    });
-                }
+                const ExactSum mine = pair_energy_of(cell, share);
                 const std::lock_guard hold(lock);
                 total += mine;
             });
@@ -694,6 +673,35 @@ private:
     static constexpr bool has_pair_energy = []<class... X>(std::tuple<X...> const*) {
         return (false || ... || requires { X::stores_energy; });
     }(static_cast<typename M::Terms const*>(nullptr));
+    /// Of the targets in a cell: what is out of range is passed over.
+    [[nodiscard]] ExactSum pair_energy_of(std::size_t cell, auto const& share) const
+    {
+        auto const& p = mobile();
+        auto const& bins = species<0>().bins;
+        auto const& lists = this->template lists<0, 0>().of_cell(cell);
+        constexpr auto W = std::size_t(width<V>);
+        constexpr auto stride = std::uint32_t(Layout<dim, Set<M::template record<0>()>>::stride);
+        const std::size_t n = p.size(), first = std::size_t(bins.begin(cell));
+        const auto ui = p.template uniforms<double>();
+        const double range2 = physics_.interaction.range() * physics_.interaction.range();
+        ExactSum sum;
+        for (std::size_t block = 0; block + 1 < lists.begin.size(); ++block)
+            for (auto row = std::size_t(lists.begin[block]); row < std::size_t(lists.begin[block + 1]); ++row)
+                for (std::size_t lane = 0; lane < W; ++lane) {
+                    const std::size_t j = std::uint32_t(lists.index[row * W + lane]) / stride;
+                    if (j == n) continue;
+                    const std::size_t i = first + std::size_t(lists.target[block * W + lane]);
+                    if (j < n && (p.at(position, i) - p.at(position, j)).squaredNorm() > range2 * (1 + 1e-6)) continue;
+                    const double part = share(i, particle_of(j));
+                    if (part == 0) continue;
+                    const auto ri = double_record(p, i), rj = double_record_of(j);
+                    const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, ui, rj, ui);
+                    detail::each_in(terms_, [&](auto const& t) {
+                        if constexpr (requires { t.energy(ij); }) sum.add(part * t.energy(ij));
+                    });
+                }
+        return sum;
+    }
     /// The exact sum of what `fill` writes, a stretch of particles at a time; compiled once for all that is summed.
     double sum_of(std::function<void(std::size_t, std::size_t, double*)> const& fill) const
     {
