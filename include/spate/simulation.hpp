@@ -373,6 +373,7 @@ public:
         auto& r = self.report_;
         f("step", self.step_), f("time", self.time_), f("dt", self.dt_);
         f("free_dt", self.free_dt_), f("first_dt", self.first_dt_), f("warned", self.warned_);
+        f("cfl", self.cfl_), f("fixed_dt", self.fixed_dt_);
         f("report_steps", r.steps), f("wall_s", r.wall), f("cpu_s", r.cpu);
         f("mach_max", r.mach), f("density_change_max", r.density_change), f("energy_rise_max", r.energy_rise);
         f("energy_reference", r.energy_reference), f("kinetic_start", r.start.kinetic);
@@ -422,7 +423,7 @@ public:
         report_.warnings = std::move(warnings);
         stiffness_ = stiffness_of_all();
         if constexpr (Engine::M::moves) system_.boundary().move_to(time_);
-        prepared_ = true, stopped_ = false;
+        prepared_ = true, stopped_ = false, resumed_ = true;
     }
     /// The bins of lists beyond the range, in a box.
     [[gnu::cold]] [[nodiscard]] Grid<dim> make_grid(Box<dim> const& box) const
@@ -731,6 +732,11 @@ private:
     }
     [[gnu::cold]] void begin_run(RunOptions const& o)
     {
+        if (resumed_ && step_ > 0 && (o.cfl != cfl_ || o.dt != fixed_dt_))
+            report_.warnings.push_back("the run goes on with cfl " + text(o.cfl) + " and dt " + text(o.dt) +
+                                       " s, before the checkpoint it had " + text(cfl_) + " and " + text(fixed_dt_) +
+                                       " s: it is another run from here");
+        resumed_ = false, cfl_ = o.cfl, fixed_dt_ = o.dt;
         if (step_ > 0) return;
         stiffness_ = stiffness_of_all();
         if (o.dt > 0) return;
@@ -860,10 +866,10 @@ private:
     Exchanged<dim> exchanged_;
     double came_at_start_ = 0; ///< energy that particles had brought when the watch began [J]
     std::function<bool()> interrupted_ = [] { return false; };
-    double time_ = 0, dt_ = 0, free_dt_ = 0, first_dt_ = 0;
+    double time_ = 0, dt_ = 0, free_dt_ = 0, first_dt_ = 0, cfl_ = 0, fixed_dt_ = 0;
     std::string_view criterion_ = "none";
     std::int64_t step_ = 0;
-    bool prepared_ = false, warned_ = false, stopped_ = false;
+    bool prepared_ = false, warned_ = false, stopped_ = false, resumed_ = false;
 };
 
 } // namespace spate

@@ -27,7 +27,7 @@ struct Table {
     {
         return std::visit([](auto const& v) { return v.size(); }, values);
     }
-    [[nodiscard]] std::size_t rows() const { return size() / columns; }
+    bool operator==(Table const&) const = default;
 };
 
 /// Tables and texts by name; a name such as "species_0/position" has the folder first.
