@@ -57,6 +57,10 @@ struct Some {
             return is[i] == 0 ? 0.0 : is[j] != 0 ? 0.5 : 1.0;
         });
     }
+    [[nodiscard]] double wall_energy() const
+    {
+        return contacts ? sum([&](std::size_t i) { return system.wall_energy_of(i); }) : 0;
+    }
 };
 
 } // namespace spate

@@ -455,21 +455,22 @@ public:
         }
         return ranks().all(total, agree::Sum{}).value();
     }
-    /// The sum of what the mobile particles store in walls that they touch, wall_energy(i) of a term [J].
+    /// What a mobile particle stores in walls that it touches, wall_energy(i) of a term [J].
+    [[nodiscard]] double wall_energy_of(std::size_t i) const
+    {
+        double e = 0;
+        detail::each_in(terms_, [&](auto const& t) {
+            if constexpr (requires { t.wall_energy(AsDouble{mobile(), i}); }) e += t.wall_energy(AsDouble{mobile(), i});
+        });
+        return e;
+    }
+    /// The sum of that.
     [[nodiscard]] double wall_energy() const
     {
         constexpr bool any = []<class... X>(std::tuple<X...> const*) {
             return (false || ... || requires { X::pushes; });
         }(static_cast<typename M::Terms const*>(nullptr));
-        if constexpr (any)
-            return sum([&](std::size_t i) {
-                double e = 0;
-                detail::each_in(terms_, [&](auto const& t) {
-                    if constexpr (requires { t.wall_energy(AsDouble{mobile(), i}); })
-                        e += t.wall_energy(AsDouble{mobile(), i});
-                });
-                return e;
-            });
+        if constexpr (any) return sum([&](std::size_t i) { return wall_energy_of(i); });
         else return 0;
     }
     /// What terms of a boundary without markers do to the particles: f(i, sums) with all that they add to particle i.
