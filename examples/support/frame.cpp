@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdio>
 #include <iostream>
+#include <numbers>
 
 #include <spate/core/errors.hpp>
 #include <spate/io/detail/replace_file.hpp>
@@ -66,12 +67,16 @@ void Frame::require_writable(std::filesystem::path const& directory)
     }
 }
 
-void Frame::interrupted(Summary& s, std::int64_t step, double time)
+void Frame::interrupted(Summary& s, std::int64_t step, double time, std::filesystem::path const& checkpoint)
 {
     s.stop = "Interrupted";
-    s.stop_message = std::string("spate: interrupted by ") + (interrupt() == SIGINT ? "SIGINT" : "SIGTERM") +
-                     " at step " + std::to_string(step) + ", t = " + spate::text(time) +
-                     " s; the last state has been written";
+    s.stop_message = std::string("spate: interrupted by ") +
+                     (interrupt() == SIGINT    ? "SIGINT"
+                      : interrupt() == SIGUSR1 ? "SIGUSR1"
+                                               : "SIGTERM") +
+                     " at step " + std::to_string(step) + ", t = " + spate::text(time) + " s; " +
+                     (checkpoint.empty() ? "the last state has been written"
+                                         : "--restart " + checkpoint.string() + " goes on from there");
     s.stop_facts.step = step, s.stop_facts.time = time;
     code_ = 128 + interrupt();
 }
@@ -96,10 +101,30 @@ void Frame::Talk::opening(Summary const& s) const
     std::fflush(stdout);
 }
 
+void Frame::Talk::going_on(std::filesystem::path const& checkpoint, std::int64_t step, double time) const
+{
+    if (quiet) return;
+    std::printf("going on from %s: step %lld, t = %.6g s\n", checkpoint.c_str(), static_cast<long long>(step), time);
+    std::fflush(stdout);
+}
+
 void Frame::Talk::first_step(double dt, std::string_view criterion) const
 {
     if (quiet) return;
     std::printf("dt = %.4g s at the start, by the %s criterion\n", dt, std::string(criterion).c_str());
+    std::fflush(stdout);
+}
+
+void Frame::Talk::contact(char const* integrator, double omega, double dt, double growth, double error) const
+{
+    if (quiet) return;
+    const double time = std::numbers::pi / omega;
+    std::printf("contact time %.4g s, omega dt = %.4g, %.3g steps a contact: %s ", time, omega * dt, time / dt,
+                integrator);
+    if (growth > 0)
+        std::printf("multiplies the energy of a contact by %.5g\n", std::exp(2 * std::log1p(growth) * time / dt));
+    else if (omega * dt < 2) std::printf("keeps the energy of a contact within about %.2g %%\n", 100 * error);
+    else std::printf("is unstable: omega dt must be below 2\n");
     std::fflush(stdout);
 }
 

@@ -25,13 +25,14 @@ public:
     Options const& options() const { return options_; }
     CommandLine& command_line() { return line_; }
 
-    /// 0 ok, 2 bad input, 3 a typed stop, 4 an output could not be written, 128 + signal.
+    /// 0 ok, 2 bad input, 3 a typed stop, 4 an output could not be written, 128 + signal: 130 SIGINT, 138 SIGUSR1,
+    /// 143 SIGTERM, each with a checkpoint.
     int main(int argc, char** argv, std::function<void()> const& scene);
 
 protected:
     /// Before step 0 a directory that cannot be written in is bad input; later it is an OutputError.
     static void require_writable(std::filesystem::path const& directory);
-    void interrupted(Summary& s, std::int64_t step, double time);
+    void interrupted(Summary& s, std::int64_t step, double time, std::filesystem::path const& checkpoint);
     /// What is printed on standard output.
     struct Talk {
         bool quiet;
@@ -39,13 +40,21 @@ protected:
 
         void opening(Summary const& s) const;
         void begin(auto const& scene) { warn(scene.report().warnings); }
+        void going_on(std::filesystem::path const& checkpoint, std::int64_t step, double time) const;
         void step(auto const& scene)
         {
-            if (scene.report().steps == 1) first_step(scene.dt(), scene.criterion());
+            if (scene.report().steps == 1) {
+                first_step(scene.dt(), scene.criterion());
+                if (const double omega = scene.stiffness().contact_frequency; omega > 0)
+                    contact(scene.integrator().name, omega, scene.dt(), scene.integrator().growth(omega * scene.dt()),
+                            scene.integrator().energy_error(omega * scene.dt()));
+            }
             warn(scene.report().warnings);
         }
         void end(auto const& scene) { warn(scene.report().warnings); }
         void first_step(double dt, std::string_view criterion) const;
+        /// What the integrator makes of an undamped contact of angular frequency omega [1/s].
+        void contact(char const* integrator, double omega, double dt, double growth, double error) const;
         /// Warnings are errors in waiting: they are told even to the quiet.
         void warn(std::vector<std::string> const& all);
         void closing(Summary const& s, std::filesystem::path const& directory,

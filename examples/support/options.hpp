@@ -26,6 +26,8 @@ struct Options {
     int cell = 0;                                                  ///< ranges along a cell's edge; 0: by dimension
     std::uint64_t seed = 1;                                        ///< of random numbers
     std::string output = {};                                       ///< directory; empty: out/NAME
+    std::string checkpoint_every = "0";                            ///< steps, or a time by the clock: 500, 600s, 2h
+    std::string restart = {};                                      ///< checkpoint to go on from; empty: none
     bool quiet = false;
 };
 
@@ -44,6 +46,7 @@ public:
     void choice(std::string const& option, std::string& value, std::vector<std::string> const& words,
                 std::string const& help);
     void number(std::string const& option, double& value, std::string const& help, std::string const& unit);
+    void text(std::string const& option, std::string& value, std::string const& help, std::string const& what);
     /// Only where a scene draws random numbers.
     void seed();
     /// Throws Exit{0} after --help and Exit{2}, after one sentence, for what cannot be understood.

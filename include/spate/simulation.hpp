@@ -8,6 +8,7 @@
 #include "spate/boundary/boundary.hpp"
 #include "spate/boundary/motion.hpp"
 #include "spate/integrator/integrator.hpp"
+#include "spate/measure/exchanged.hpp"
 #include "spate/measure/nearest_image.hpp"
 #include "spate/measure/wall_force.hpp"
 #include "spate/measure/watch.hpp"
@@ -16,10 +17,10 @@
 #include "spate/physics/system.hpp"
 #include "spate/physics/time_step.hpp"
 
-#include <atomic>
 #include <chrono>
 #include <functional>
 #include <numbers>
+#include <set>
 
 namespace spate {
 
@@ -68,7 +69,9 @@ class Simulation {
 public:
     static constexpr int dim = P::dim;
     using Engine = System<P, B, Workers, Precision>;
+    static constexpr bool has_contacts = Set<Engine::M::wall_adds>::template contains<Acceleration>;
     using Point = Vec<dim, double>;
+    using Mobile = typename Engine::template ParticlesOf<0>;
 
     [[gnu::cold]] Simulation(P physics, I integrator, B boundary, Workers backend = {}, Precision = {}, W watch = {},
                              Neighbours neighbours = neighbours_for<typename Engine::M::Interaction>())
@@ -107,6 +110,7 @@ public:
         complete(spacing);
         set_mass(spacing);
         auto& p = system_.mobile();
+        system_.set_aside();
         const std::size_t first = p.size();
         std::size_t count = 1;
         for (auto k : n) count *= std::size_t(k);
@@ -141,15 +145,69 @@ public:
     /// One particle; its index until the next step.
     std::size_t add(Point const& x, Point const& v = {})
     {
-        auto& p = system_.mobile();
-        const std::size_t i = p.size();
-        p.resize(i + 1);
-        p.put(position, i, x);
-        begin(p, i, Box<dim>{x, x}, nullptr);
-        p.put(velocity, i, v);
+        system_.set_aside();
         prepared_ = false;
+        return append(system_.mobile(), x, v);
+    }
+    /// Room for particles that are to enter.
+    [[nodiscard]] Mobile newcomers() const
+    {
+        Mobile more;
+        for_each(Mobile::uniform, [&](auto f) { more.value(f) = system_.mobile().value(f); });
+        return more;
+    }
+    /// One particle among newcomers, as add() begins it.
+    std::size_t append(Mobile& to, Point const& x, Point const& v = {}) const
+    {
+        const std::size_t i = to.size();
+        to.resize(i + 1);
+        to.put(position, i, x);
+        begin(to, i, Box<dim>{x, x}, nullptr);
+        to.put(velocity, i, v);
         return i;
     }
+    /// Between two steps newcomers enter, in their order and with ids that nobody had before; nobody touches them yet.
+    [[gnu::cold]] Amount<dim> enter(Mobile const& more)
+    {
+        static_assert(Engine::alone, "spate: particles enter and leave on one rank only");
+        if (!prepared_) prepare();
+        if (more.empty()) return {};
+        auto& p = system_.mobile();
+        system_.set_aside();
+        const std::size_t first = p.size();
+        p.resize(first + more.size());
+        for_each(Mobile::fields, [&](auto f) {
+            for (std::size_t c = 0; c < std::size(p.column(f)); ++c)
+                std::copy_n(more.column(f)[c].begin(), more.size(), p.column(f)[c].begin() + std::ptrdiff_t(first));
+        });
+        check_particles();
+        check_places(first);
+        std::vector<char> is(p.size(), 0);
+        std::fill(is.begin() + std::ptrdiff_t(first), is.end(), char(1));
+        const Amount<dim> a = amount_of(is, false);
+        system_.resized();
+        exchanged_.entered += a, exchanged_.moment += a.mass * time_;
+        return a;
+    }
+    /// Between two steps the particles leave for which leaves(particles, i) holds: theirs is what is returned.
+    Amount<dim> remove(auto const& leaves)
+    {
+        static_assert(Engine::alone, "spate: particles enter and leave on one rank only");
+        if (!prepared_) prepare();
+        std::vector<char> is;
+        if (!find(leaves, is)) return {};
+        make_lists_current(); // for their contacts; may sort
+        find(leaves, is);
+        const Amount<dim> a = amount_of(is, true);
+        std::vector<std::int32_t> stay;
+        for (std::size_t i = 0; i < is.size(); ++i)
+            if (is[i] == 0) stay.push_back(std::int32_t(i));
+        system_.keep(stay);
+        exchanged_.left += a, exchanged_.moment -= a.mass * time_;
+        return a;
+    }
+    /// What has entered and left.
+    [[nodiscard]] Exchanged<dim> const& exchanged() const { return exchanged_; }
     /// Tells the scene that particles were changed by hand.
     [[gnu::cold]] void prepare()
     {
@@ -177,7 +235,8 @@ public:
         require(std::isfinite(o.until) || o.steps < std::numeric_limits<std::int64_t>::max(), "until", o.until,
                 "a finite end time [s], or a number of steps");
     }
-    /// Steps until the end time or the number of steps; outputs have begin(sim), step(sim), end(sim).
+    /// Steps until the end time or the number of steps; outputs have begin(sim), step(sim), end(sim). What changes the scene
+    /// between two steps, such as a Pour, has before_step(sim) besides.
     template <class... Output>
     RunReport const& run(RunOptions const& o, Output&&... output)
     {
@@ -190,14 +249,16 @@ public:
             o.steps > std::numeric_limits<std::int64_t>::max() - step_ ? o.steps : step_ + o.steps;
         try {
             while (time_ < o.until && step_ < last && !interrupted()) {
+                (before_step(output), ...);
                 step(o);
                 (output.step(*this), ...);
             }
             if constexpr (W::on) final_look();
         }
-        catch (Stop const&) {
+        catch (Stop& stop) {
             stopped_ = true;
             (output.end(*this), ...);
+            (tell(stop, output), ...);
             throw;
         }
         (output.end(*this), ...);
@@ -223,8 +284,9 @@ public:
         if constexpr (W::on)
             if (step_ % watch_.energy_every == 0) look_at_energy();
         system_.template phase<When::before_step>(step_, [] {}); // the lists are those of this step
+        move_contacts();
         integrator_.step(system_, dt_);
-        if constexpr (reflects) reflect();
+        if constexpr (Engine::reflects) reflect();
         system_.template phase<When::after_step>(step_, [&] { make_lists_current(); });
         time_ += dt_;
         ++step_;
@@ -234,6 +296,7 @@ public:
     }
     /// Asked before each step: true ends the run after the step in hand.
     void interrupt_when(std::function<bool()> f) { interrupted_ = std::move(f); }
+    [[nodiscard]] bool interrupted() const { return system_.ranks().all(interrupted_(), agree::Or{}); }
 
     // ---- what is known
     [[nodiscard]] double time() const { return time_; }
@@ -248,6 +311,8 @@ public:
     auto& particles() { return system_.mobile(); }
     auto const& particles() const { return system_.mobile(); }
     Vec<dim, double> const& gravity() const { return g_; }
+    /// What bounds the step; known from the first step on.
+    Stiffness const& stiffness() const { return stiffness_; }
     /// Brings pressure and other derived fields up to date with the state.
     void refresh()
     {
@@ -264,11 +329,7 @@ public:
     /// Whether a Stop has ended the run: the state is left as it was found, and nothing brings it up to date.
     [[nodiscard]] bool stopped() const { return stopped_; }
     /// Of the mobile particles; lists must be current where contacts store energy.
-    [[nodiscard]] Energy energy() const
-    {
-        if constexpr (has_equation_of_state<P>) return energy_of(system_, &equation_of_state(physics()), g_);
-        else return energy_of(system_, static_cast<void const*>(nullptr), g_);
-    }
+    [[nodiscard]] Energy energy() const { return energy_in(system_); }
     /// sum m v over the mobile particles [kg m/s], each component exact.
     [[nodiscard]] Point momentum() const
     {
@@ -291,7 +352,7 @@ public:
         return system_.sum([&](std::size_t i) { return p.at(mass, i) / p.at(density, i); });
     }
     /// Of the particles on the walls of markers [N]; derived fields are those of the last evaluation: refresh() before.
-    [[nodiscard]] Point wall_force() requires(Engine::species_count == 2) { return WallForce{}(*this); }
+    [[nodiscard]] Point wall_force() requires(Engine::species_count == 2 || has_contacts) { return WallForce{}(*this); }
     /// Whether something does work on the particles: walls that move, a force of the user, or gravity along a periodic axis,
     /// which has no potential to compare with.
     [[nodiscard]] bool driven() const
@@ -306,7 +367,96 @@ public:
     }
     [[nodiscard]] std::uint64_t state_hash() const { return system_.state_hash(); }
 
+    // ---- going on from a checkpoint: see io/resume.hpp
+    /// f(name, number) for all that the steps to come depend on beside the particles, and for what has been counted.
+    template <class Self>
+    static void numbers_of(Self& self, auto const& f)
+    {
+        auto& r = self.report_;
+        f("step", self.step_), f("time", self.time_), f("dt", self.dt_);
+        f("free_dt", self.free_dt_), f("first_dt", self.first_dt_), f("warned", self.warned_);
+        f("cfl", self.cfl_), f("fixed_dt", self.fixed_dt_);
+        f("report_steps", r.steps), f("wall_s", r.wall), f("cpu_s", r.cpu);
+        f("mach_max", r.mach), f("density_change_max", r.density_change), f("energy_rise_max", r.energy_rise);
+        f("energy_reference", r.energy_reference), f("kinetic_start", r.start.kinetic);
+        f("potential_start", r.start.potential), f("internal_start", r.start.internal);
+        f("exchanged_moment", self.exchanged_.moment);
+        for (auto* a : {&self.exchanged_.entered, &self.exchanged_.left}) {
+            const std::string side = a == &self.exchanged_.left ? "left_" : "entered_";
+            f(side + "particles", a->particles), f(side + "mass", a->mass), f(side + "energy", a->energy);
+            for (int c = 0; c < dim; ++c) f(along_axis(side + "momentum", c), a->momentum[c]);
+        }
+        Engine::numbers_of(self.system_, f);
+    }
+    /// f(name, value) for what the scene was put together with; a scene that differs in one of them is another scene.
+    [[gnu::cold]] void each_parameter(auto const& f) const
+    {
+        auto const& i = physics().interaction;
+        auto const& n = system_.neighbours();
+        f("range", i.range()), f("length", i.length());
+        if constexpr (has_equation_of_state<P>)
+            f("rho0", equation_of_state(physics()).rho0), f("c0", equation_of_state(physics()).c0);
+        const Stiffness s = stiffness_of_all();
+        f("viscosity", s.viscosity), f("contact_frequency", s.contact_frequency);
+        for (int c = 0; c < dim; ++c) f(along_axis("gravity", c), g_[c]);
+        f("skin", n.skin), f("bin_edge", n.bin_edge()), f("trigger", n.closed_in());
+        f("bins_in_a_range", n.finer), f("skin_by_place", n.local);
+        if (const auto box = system_.boundary().template box<dim>())
+            for (int c = 0; c < dim; ++c) f(along_axis("box_lower", c), box->lo[c]), f(along_axis("box_upper", c), box->hi[c]);
+        system_.each_species([&](auto k) {
+            auto const& p = system_.template species<k()>().particles;
+            for_each(p.uniform, [&]<class F>(F field) {
+                f(std::string(F::name) + " of species " + std::to_string(k()), p.value(field));
+            });
+        });
+    }
+    /// Whether the particles are those that the scene last heard of.
+    [[nodiscard]] bool prepared() const { return prepared_; }
+    /// The state of another time takes the place of this one. fill() puts it into the particles and the numbers; then
+    /// lists(system) builds the lists of then.
+    [[gnu::cold]] void resume(Box<dim> const& grid_box, std::string const& criterion, std::vector<std::string> warnings,
+                              auto const& fill, auto const& lists)
+    {
+        static std::set<std::string> words; // a criterion is a view
+        system_.use(make_grid(grid_box));
+        fill();
+        lists(system_);
+        criterion_ = *words.insert(criterion).first;
+        report_.warnings = std::move(warnings);
+        stiffness_ = stiffness_of_all();
+        if constexpr (Engine::M::moves) system_.boundary().move_to(time_);
+        prepared_ = true, stopped_ = false, resumed_ = true;
+    }
+    /// The bins of lists beyond the range, in a box.
+    [[gnu::cold]] [[nodiscard]] Grid<dim> make_grid(Box<dim> const& box) const
+    {
+        constexpr int by_dimension[] = {64, 16, 6}, of_many_ranks[] = {16, 4, 2}; // several cells a rank
+        const int cell = system_.backend().cell > 0 ? system_.backend().cell
+                         : Engine::alone            ? by_dimension[dim - 1]
+                                                    : of_many_ranks[dim - 1];
+        auto const& n = system_.neighbours();
+        return Grid<dim>(box, system_.boundary().template edges<dim>(), physics().interaction.range() * n.bin_edge(),
+                         n.finer, cell);
+    }
+
 private:
+    /// The message of a stop names the files that an output has saved for it.
+    template <class Output>
+    static void tell([[maybe_unused]] Stop& stop, [[maybe_unused]] Output const& output)
+    {
+        if constexpr (requires { stop.add(output.saved()); }) stop.add(output.saved());
+    }
+    [[nodiscard]] Stiffness stiffness_of_all() const
+    {
+        double m = 0;
+        if constexpr (Set<P::uniform>::template contains<Mass>) m = system_.mobile().value(mass);
+        Stiffness s = stiffness_of(physics(), m);
+        detail::each_in(system_.terms(), [&](auto const& t) {
+            if constexpr (requires { t.pushes; })
+                s.contact_frequency = std::max(s.contact_frequency, t.contact_frequency(m));
+        });
+        return s;
+    }
     /// A particle term other than Gravity that pushes: a driving force of unknown work.
     static constexpr bool driven_by_user = []<class... X>(std::tuple<X...> const*) {
         return (false || ... ||
@@ -337,10 +487,42 @@ private:
                 throw BadInput(names[k], text(least[k]) + " on one rank and " + text(most[k]) + " on another",
                                "the same on all ranks");
     }
-    [[nodiscard]] bool interrupted() const { return system_.ranks().all(interrupted_(), agree::Or{}); }
-    /// Walls that reflect what has gone through them.
-    static constexpr bool reflects = requires(B const b, Point x, Point v) { b.reflect(x, v, 0.0); };
-
+    void before_step([[maybe_unused]] auto& output)
+    {
+        if constexpr (requires { output.before_step(*this); }) output.before_step(*this);
+    }
+    /// Whether there is any; `is` tells which.
+    bool find(auto const& leaves, std::vector<char>& is) const
+    {
+        auto const& p = system_.mobile();
+        const std::size_t n = p.size();
+        is.assign(n, 0);
+        std::atomic<bool> any = false;
+        system_.backend().for_each((n + Engine::task - 1) / Engine::task, [&](std::size_t k) {
+            bool mine = false;
+            for (std::size_t i = k * Engine::task, end = std::min(n, (k + 1) * Engine::task); i < end; ++i)
+                if (leaves(p, i)) is[i] = 1, mine = true;
+            if (mine) any = true;
+        });
+        return any;
+    }
+    [[gnu::cold]] Amount<dim> amount_of(std::vector<char> const& is, bool contacts) const
+    {
+        auto const& p = system_.mobile();
+        const Some<Engine> some{system_, is, contacts};
+        Amount<dim> a;
+        a.particles = std::int64_t(some.sum([](std::size_t) { return 1.0; }));
+        a.mass = some.sum([&](std::size_t i) { return p.at(mass, i); });
+        for (int c = 0; c < dim; ++c)
+            a.momentum[c] = some.sum([&](std::size_t i) { return p.at(mass, i) * p.at(velocity, i)[c]; });
+        a.energy = energy_in(some).total();
+        return a;
+    }
+    [[nodiscard]] Energy energy_in(auto const& particles) const
+    {
+        if constexpr (has_equation_of_state<P>) return energy_of(particles, &equation_of_state(physics()), g_);
+        else return energy_of(particles, static_cast<void const*>(nullptr), g_);
+    }
     [[gnu::cold]] static P const& checked(P const& physics, B const& boundary, Workers const& backend,
                                           Neighbours const& n, W const& watch)
     {
@@ -391,7 +573,7 @@ private:
         }
     }
     template <class Particles, class Start>
-    void begin(Particles& p, std::size_t i, [[maybe_unused]] Box<dim> const& box, [[maybe_unused]] Start start)
+    void begin(Particles& p, std::size_t i, [[maybe_unused]] Box<dim> const& box, [[maybe_unused]] Start start) const
     {
         if constexpr (has_equation_of_state<P> && Particles::template has<Density>)
             p.put(density, i, equation_of_state(physics()).rho0);
@@ -466,23 +648,20 @@ private:
                 if (near.contains(p.at(position, i))) begin(p, i, box, start);
         }
     }
+    /// Unless the integrator does it itself, once positions have drifted.
     void reflect()
     {
-        auto& p = system_.mobile();
-        const std::size_t n = p.size();
-        std::atomic<bool> any = false, lost = false;
-        system_.backend().for_each((n + Engine::task - 1) / Engine::task, [&](std::size_t k) {
-            for (std::size_t i = k * Engine::task, end = std::min(n, (k + 1) * Engine::task); i < end; ++i) {
-                Point x = p.at(position, i), v = p.at(velocity, i);
-                const auto bounce = system_.boundary().reflect(x, v, radius_of(p, i));
-                if (bounce == B::Bounce::none) continue;
-                p.put(position, i, x), p.put(velocity, i, v);
-                any = true;
-                if (bounce == B::Bounce::too_many) lost = true;
-            }
+        if constexpr (!requires { I::reflects; })
+            if (system_.reflect()) system_.forget_kick_rates();
+        if (system_.lost()) together(system_.ranks(), [&] { stop_lost(); });
+    }
+    /// Walls of contact that move are, in this step, where they are when the integrator takes its last rates.
+    void move_contacts()
+    {
+        const double t = time_ + I::ahead_velocity * dt_;
+        detail::each_in(system_.terms(), [&](auto& term) {
+            if constexpr (requires { term.move_to(t); }) term.move_to(t);
         });
-        if (system_.ranks().all(bool(any), agree::Or{})) system_.forget_kick_rates();
-        if (system_.ranks().all(bool(lost), agree::Or{})) together(system_.ranks(), [&] { stop_lost(); });
     }
     static double radius_of([[maybe_unused]] auto const& p, [[maybe_unused]] std::size_t i)
     {
@@ -529,28 +708,25 @@ private:
                     "above 0 [kg]; the spacing of a fill sets it");
     }
     /// No particle starts beyond a wall, or is too large for the lists.
-    [[gnu::cold]] void check_places() const
+    [[gnu::cold]] void check_places(std::size_t first = 0) const
     {
         auto const& p = system_.mobile();
         using Q = std::remove_cvref_t<decltype(p)>;
-        const std::size_t i = detail::first_by_id(
-            p, [&](std::size_t k) { return system_.boundary().template beyond<dim>(p.at(position, k)) > 0; });
+        const std::size_t i = detail::first_by_id(p, [&](std::size_t k) {
+            return k >= first && system_.boundary().template beyond<dim>(p.at(position, k)) > 0;
+        });
         if (i < p.size())
             throw BadInput("position of particle " + std::to_string(p.id()[i]),
                            text(system_.boundary().template beyond<dim>(p.at(position, i))) + " m beyond a wall",
                            "inside the walls");
         if constexpr (Set<Q::fields>::template contains<Radius> && requires { physics().interaction.largest; })
-            for (std::size_t k = 0; k < p.size(); ++k)
+            for (std::size_t k = first; k < p.size(); ++k)
                 require(p.at(radius, k) <= physics().interaction.largest,
                         "radius of particle " + std::to_string(p.id()[k]), p.at(radius, k),
                         "at most the interaction's largest, " + text(physics().interaction.largest) + " m");
     }
     [[gnu::cold]] Grid<dim> make_grid() const
     {
-        constexpr int by_dimension[] = {64, 16, 6}, of_many_ranks[] = {16, 4, 2}; // several cells a rank
-        const int cell = system_.backend().cell > 0 ? system_.backend().cell
-                         : Engine::alone            ? by_dimension[dim - 1]
-                                                    : of_many_ranks[dim - 1];
         auto box = system_.boundary().template box<dim>();
         if (!box) {
             Point lo{};
@@ -566,9 +742,7 @@ private:
             }
             box = Box<dim>{lo, lo};
         }
-        auto const& n = system_.neighbours();
-        return Grid<dim>(*box, system_.boundary().template edges<dim>(), physics().interaction.range() * n.bin_edge(),
-                         n.finer, cell);
+        return make_grid(*box);
     }
     void rebuild(bool wide = false)
     {
@@ -586,10 +760,13 @@ private:
     }
     [[gnu::cold]] void begin_run(RunOptions const& o)
     {
+        if (resumed_ && step_ > 0 && (o.cfl != cfl_ || o.dt != fixed_dt_))
+            report_.warnings.push_back("the run goes on with cfl " + text(o.cfl) + " and dt " + text(o.dt) +
+                                       " s, before the checkpoint it had " + text(cfl_) + " and " + text(fixed_dt_) +
+                                       " s: it is another run from here");
+        resumed_ = false, cfl_ = o.cfl, fixed_dt_ = o.dt;
         if (step_ > 0) return;
-        double m = 0;
-        if constexpr (Set<P::uniform>::template contains<Mass>) m = system_.mobile().value(mass);
-        stiffness_ = stiffness_of(physics(), m);
+        stiffness_ = stiffness_of_all();
         if (o.dt > 0) return;
         const TimeStep t = time_step(stiffness_, o.cfl, 0, std::sqrt(g_.squaredNorm()));
         require(std::isfinite(t.dt), "dt", o.dt, "above 0: the model has no criterion that bounds the step");
@@ -672,12 +849,14 @@ private:
     {
         if (driven()) return;
         const Energy e = energy();
+        const double came = exchanged_.energy();
         if (report_.energy_reference == 0) {
-            report_.start = e;
+            report_.start = e, came_at_start_ = came;
             report_.energy_reference = reference(e);
         }
+        if (exchanged_.any()) report_.energy_reference = std::max(report_.energy_reference, reference(e));
         if (report_.energy_reference == 0) return;
-        const double rise = (e.total() - report_.start.total()) / report_.energy_reference;
+        const double rise = (e.total() - report_.start.total() - (came - came_at_start_)) / report_.energy_reference;
         report_.energy_rise = std::max(report_.energy_rise, rise);
         if (rise > watch_.warn && !warned_) warn_of_energy(rise);
         // What is measured of a bounded scheme oscillates by a known amount.
@@ -718,11 +897,13 @@ private:
     Vec<dim, double> g_;
     Stiffness stiffness_;
     RunReport report_;
+    Exchanged<dim> exchanged_;
+    double came_at_start_ = 0; ///< energy that particles had brought when the watch began [J]
     std::function<bool()> interrupted_ = [] { return false; };
-    double time_ = 0, dt_ = 0, free_dt_ = 0, first_dt_ = 0;
+    double time_ = 0, dt_ = 0, free_dt_ = 0, first_dt_ = 0, cfl_ = 0, fixed_dt_ = 0;
     std::string_view criterion_ = "none";
     std::int64_t step_ = 0;
-    bool prepared_ = false, warned_ = false, stopped_ = false;
+    bool prepared_ = false, warned_ = false, stopped_ = false, resumed_ = false;
 };
 
 } // namespace spate

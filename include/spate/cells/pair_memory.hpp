@@ -7,6 +7,7 @@
 #include "spate/cells/neighbours.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace spate {
@@ -33,7 +34,7 @@ public:
                 bool any = false;
                 for (int c = 0; c < Count; ++c) {
                     p.value[std::size_t(c)] = memory[cell][place(row, c, W) + lane];
-                    any = any || p.value[std::size_t(c)] != T(0);
+                    any = any || p.value[std::size_t(c)] != T(0) || std::signbit(p.value[std::size_t(c)]);
                 }
                 const std::size_t j = lists.number(lists.of_cell(cell).index[slot]);
                 if (!any || j == source.size()) return;
@@ -71,6 +72,10 @@ public:
         pairs_.insert(pairs_.end(), pairs.begin(), pairs.end());
         std::sort(pairs_.begin(), pairs_.end(), before);
     }
+    /// What was taken at another time; sorted by ids.
+    void put(std::vector<Pair> pairs) { pairs_ = std::move(pairs); }
+    /// Nothing is aside any more.
+    void clear() { pairs_.clear(); }
 
     /// Where component c of a row of W slots begins.
     static std::size_t place(std::size_t row, int c, int W)

@@ -140,8 +140,33 @@ public:
             least_ = std::min(least_, skin_[p]);
         }
     }
-    /// Skins that were chosen before, by patch.
-    void use(std::vector<double> skin) { skin_ = std::move(skin); }
+    /// The skins of another time. \param skin  where all are the same, and of patches without pairs
+    void use(double skin, std::vector<double> of_patch)
+    {
+        uniform_ = least_ = skin;
+        skin_ = std::move(of_patch);
+        for (double s : skin_) least_ = std::min(least_, s);
+    }
+    /// Where a patch lies, counted in patches along each axis: the same for every size of cells.
+    static Index<Dim> place(Binning<Dim> const& at, std::size_t patch, Grid<Dim> const& grid)
+    {
+        const std::size_t per_cell = patches_of_cell(grid);
+        Index<Dim> place = at.cell(patch / per_cell);
+        auto rest = std::int32_t(patch % per_cell);
+        for (int c = 0; c < Dim; ++c, rest /= grid.cell())
+            place[std::size_t(c)] = place[std::size_t(c)] * grid.cell() + rest % grid.cell();
+        return place;
+    }
+    /// The place of the patch that holds x: the bins of a range.
+    static Index<Dim> place(Vec<Dim, double> const& x, Grid<Dim> const& grid)
+    {
+        Index<Dim> place;
+        for (int c = 0; c < Dim; ++c) {
+            const std::int32_t bin = grid.bin(c, x[c]), n = grid.per_range(c);
+            place[std::size_t(c)] = bin >= 0 ? bin / n : -((n - 1 - bin) / n);
+        }
+        return place;
+    }
     /// Fraction of the range by which pairs of a patch may close in.
     [[nodiscard]] double of(std::size_t patch) const { return skin_.empty() ? uniform_ : skin_[patch]; }
     [[nodiscard]] double least() const { return least_; }
@@ -211,8 +236,16 @@ public:
         for (auto& skins : skins_) skins.use(skin);
         least_ = skin, uniform_ = true;
     }
-    /// The skins of a target that were chosen before, by patch.
-    void restore(int species, std::vector<double> skin) { skins_[std::size_t(species)].use(std::move(skin)); }
+    /// The skins of another time, by target and patch.
+    void use(double skin, std::array<std::vector<double>, std::size_t(Species)> of_patch, auto const& ranks)
+    {
+        double least = skin;
+        for (std::size_t s = 0; s < skins_.size(); ++s) {
+            skins_[s].use(skin, std::move(of_patch[s]));
+            least = std::min(least, skins_[s].least());
+        }
+        least_ = ranks.all(least, agree::Least{}), uniform_ = false;
+    }
     /// Who is near whom, once particles are sorted. \param markers  null: there are none
     /// \param foreign_mobile, foreign_markers  those near that others own
     void look_around(Grid<Dim> const& grid, Binning<Dim> const& mobile, [[maybe_unused]] Binning<Dim> const* markers,

@@ -62,10 +62,17 @@ struct StopFacts {
 class Stop : public std::runtime_error {
 public:
     [[gnu::cold]] Stop(std::string name, StopFacts facts, std::string const& advice)
-        : std::runtime_error(sentence(name, facts, advice)), name_(std::move(name)), facts_(std::move(facts))
+        : std::runtime_error(name), message_(sentence(name, facts, advice)), name_(std::move(name)),
+          facts_(std::move(facts))
     {}
     [[nodiscard]] std::string const& name() const { return name_; }
     [[nodiscard]] StopFacts const& facts() const { return facts_; }
+    [[nodiscard]] char const* what() const noexcept override { return message_.c_str(); }
+    /// Ends the message with where the states were saved.
+    void add(std::string const& more)
+    {
+        if (!more.empty()) message_ += "; " + more;
+    }
 
 private:
     [[gnu::cold]] static std::string sentence(std::string const& name, StopFacts const& f, std::string const& advice)
@@ -80,7 +87,7 @@ private:
         s << f.quantity << " is " << f.value << ", limit " << f.limit << "; " << advice;
         return s.str();
     }
-    std::string name_;
+    std::string message_, name_;
     StopFacts facts_;
 };
 struct NonFinite : Stop {

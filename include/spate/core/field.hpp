@@ -20,6 +20,7 @@ enum class Kind { none, drift, kick };
 /// The bases of a field. A user's field: `inline constexpr struct Temperature : ScalarField { ... } temperature{};`
 struct ScalarField {
     static constexpr int rank = 0;
+    static constexpr bool axial = false;
     static constexpr Kind kind = Kind::none;
     using rates = Fields<>;                ///< by what it may evolve: the first of these that the species carries
     using rate_of = void;                  ///< for a rate: the field that it advances
@@ -28,6 +29,10 @@ struct ScalarField {
 };
 struct VectorField : ScalarField {
     static constexpr int rank = 1;
+};
+/// What turns: along the axis in space, and one number in a plane, where there is but one axis.
+struct AxialField : VectorField {
+    static constexpr bool axial = true;
 };
 
 // clang-format off
@@ -41,22 +46,23 @@ concept Field = std::is_empty_v<F> && std::is_trivial_v<F> && requires {
 // clang-format on
 
 template <Field F, int Dim>
-inline constexpr int components = F::rank == 0 ? 1 : Dim;
+inline constexpr int components = F::rank == 0 || (F::axial && Dim < 3) ? 1 : Dim;
 
 namespace detail {
-template <int Rank, int Dim, class V>
+template <int Rank, int Components, class V>
 struct ValueOf {
     using type = V;
 };
-template <int Dim, class V>
-struct ValueOf<1, Dim, V> {
-    using type = Vec<Dim, V>;
+template <int Components, class V>
+struct ValueOf<1, Components, V> {
+    using type = Vec<Components, V>;
 };
 } // namespace detail
-/// V for a scalar field, Vec<Dim, V> for a vector field.
+/// V for a scalar field, a Vec of its components for another.
 template <Field F, int Dim, class V>
-using Value = typename detail::ValueOf<F::rank, Dim, V>::type;
+using Value = typename detail::ValueOf<F::rank, components<F, Dim>, V>::type;
 
+struct AngularVelocity;
 struct Velocity;
 struct Density;
 
@@ -72,6 +78,10 @@ inline constexpr struct Velocity : VectorField     { static constexpr std::strin
 /// The velocity that positions follow where it is not the particle's own (XSPH, transport velocity, shifting).
 inline constexpr struct TransportVelocity : VectorField { static constexpr std::string_view name = "transport_velocity", unit = "m/s"; static constexpr bool derived = true; } transport_velocity{};
 inline constexpr struct Position : VectorField     { static constexpr std::string_view name = "position", unit = "m"; static constexpr Kind kind = Kind::drift; using rates = Fields<TransportVelocity, Velocity>; } position{};
+inline constexpr struct AngularAcceleration : AxialField { static constexpr std::string_view name = "angular_acceleration", unit = "rad/s^2"; using rate_of = AngularVelocity; static constexpr bool derived = true; } angular_acceleration{};
+inline constexpr struct AngularVelocity : AxialField { static constexpr std::string_view name = "angular_velocity", unit = "rad/s"; static constexpr Kind kind = Kind::kick; using rates = Fields<AngularAcceleration>; } angular_velocity{};
+/// For a term that keeps something of a pair: the time since it was kept.
+inline constexpr struct Elapsed : ScalarField     { static constexpr std::string_view name = "elapsed", unit = "s"; } elapsed{};
 /// Where a particle was when the neighbour lists were built: lists, bins and order are functions of it alone.
 inline constexpr struct BuildPosition : VectorField { static constexpr std::string_view name = "build_position", unit = "m"; } build_position{};
 // clang-format on

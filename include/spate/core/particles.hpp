@@ -99,11 +99,11 @@ public:
         if constexpr (Fields<U...>::template contains<G>) {
             if constexpr (G::rank == 0) v = value(g);
             else
-                for (int c = 0; c < Dim; ++c) v[c] = value(g);
+                for (int c = 0; c < components<G, Dim>; ++c) v[c] = value(g);
         }
         else if constexpr (G::rank == 0) v = double(column(g)[0][i]);
         else
-            for (int c = 0; c < Dim; ++c) v[c] = double(column(g)[c][i]);
+            for (int c = 0; c < components<G, Dim>; ++c) v[c] = double(column(g)[c][i]);
         return v;
     }
     template <Field G>
@@ -111,7 +111,7 @@ public:
     {
         if constexpr (G::rank == 0) column(g)[0][i] = T(v);
         else
-            for (int c = 0; c < Dim; ++c) column(g)[c][i] = T(v[c]);
+            for (int c = 0; c < components<G, Dim>; ++c) column(g)[c][i] = T(v[c]);
     }
 
     template <class V, Field G>
@@ -121,7 +121,7 @@ public:
             Value<G, Dim, V> v;
             if constexpr (G::rank == 0) v = V(value(g));
             else
-                for (int c = 0; c < Dim; ++c) v[c] = V(value(g));
+                for (int c = 0; c < components<G, Dim>; ++c) v[c] = V(value(g));
             return v;
         }
         else {
@@ -129,7 +129,7 @@ public:
             if constexpr (G::rank == 0) return load<V>(a[0].data() + i);
             else {
                 Value<G, Dim, V> v;
-                for (int c = 0; c < Dim; ++c) v[c] = load<V>(a[c].data() + i);
+                for (int c = 0; c < components<G, Dim>; ++c) v[c] = load<V>(a[c].data() + i);
                 return v;
             }
         }
@@ -140,7 +140,7 @@ public:
         auto& a = column(g);
         if constexpr (G::rank == 0) store_first(a[0].data() + i, v, lanes);
         else
-            for (int c = 0; c < Dim; ++c) store_first(a[c].data() + i, v[c], lanes);
+            for (int c = 0; c < components<G, Dim>; ++c) store_first(a[c].data() + i, v[c], lanes);
     }
     /// The record of particles i, i + 1, ...
     template <class V, class... G>
@@ -160,7 +160,7 @@ public:
             auto const& a = column(g);
             if constexpr (X::rank == 0) r[g] = lanes_of<V>(a[0].data() + first, target);
             else
-                for (int c = 0; c < Dim; ++c) r[g][c] = lanes_of<V>(a[c].data() + first, target);
+                for (int c = 0; c < components<X, Dim>; ++c) r[g][c] = lanes_of<V>(a[c].data() + first, target);
         };
         (one(G{}), ...);
         return r;
@@ -179,7 +179,7 @@ public:
         auto& a = column(g);
         if constexpr (G::rank == 0) one(a[0].data() + first, v);
         else
-            for (int c = 0; c < Dim; ++c) one(a[c].data() + first, v[c]);
+            for (int c = 0; c < components<G, Dim>; ++c) one(a[c].data() + first, v[c]);
     }
     template <class V>
     [[gnu::always_inline]] auto uniforms() const
@@ -188,18 +188,21 @@ public:
         [[maybe_unused]] auto one = [&]<class G>(G g) {
             if constexpr (G::rank == 0) r[g] = V(value(g));
             else
-                for (int c = 0; c < Dim; ++c) r[g][c] = V(value(g));
+                for (int c = 0; c < components<G, Dim>; ++c) r[g][c] = V(value(g));
         };
         (one(U{}), ...);
         return r;
     }
 
     [[nodiscard]] std::vector<std::uint32_t> const& id() const { return id_; }
+    /// The id of the next new particle.
+    [[nodiscard]] std::uint32_t next_id() const { return next_id_; }
     /// Sets the ids; only for set-up and for input, they are unique in a species.
-    void set_ids(std::vector<std::uint32_t> id)
+    /// \param next  the id of the next new one, if it is not the one after the largest
+    void set_ids(std::vector<std::uint32_t> id, std::uint32_t next = 0)
     {
         id_ = std::move(id);
-        next_id_ = id_.empty() ? 0 : *std::max_element(id_.begin(), id_.end()) + 1;
+        next_id_ = std::max(next, id_.empty() ? 0 : *std::max_element(id_.begin(), id_.end()) + 1);
     }
 
     /// Particle k becomes what particle order[k] was.

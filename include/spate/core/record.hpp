@@ -12,7 +12,7 @@ struct Slot {
     Value<F, Dim, V> value;
 };
 
-/// One value of V a field (a vector field: Dim of them); one base class a field, so that it splits into registers.
+/// One value of V a field (else as many as it has components); one base class a field, so that it splits into registers.
 template <int Dim, class V, class S>
 struct Record;
 template <int Dim, class V, class... F>
@@ -61,7 +61,7 @@ template <class V, int Dim, class... F>
     {
         if constexpr (G::rank == 0) r[g] = flat[L::template offset<G>];
         else
-            for (int c = 0; c < Dim; ++c) r[g][c] = flat[L::template offset<G> + c];
+            for (int c = 0; c < components<G, Dim>; ++c) r[g][c] = flat[L::template offset<G> + c];
     };
     (one(F{}), ...);
     return r;
@@ -74,7 +74,7 @@ template <int Dim, class V, class... F>
     {
         if constexpr (G::rank == 0) r[g] = V(0);
         else
-            for (int c = 0; c < Dim; ++c) r[g][c] = V(0);
+            for (int c = 0; c < components<G, Dim>; ++c) r[g][c] = V(0);
     };
     (one(F{}), ...);
 }

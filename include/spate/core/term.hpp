@@ -8,7 +8,7 @@
 ///   writes   fields it sets (particle terms)        adds    fields it adds to
 ///   between  which species meet (default: any)      self    true: also i with itself
 ///   when     every evaluation (default), before or after a step, each n steps (member `every`)
-///   keeps    memory of a pair, private to the term, born zero with the contact
+///   keeps    memory of a pair, private to the term, born zero with the contact; i[elapsed] is how old it is
 #pragma once
 
 #include "spate/core/record.hpp"
@@ -112,6 +112,17 @@ struct Masked {
         return y * a.x;
     }
 };
+/// The value of a field that a term may also change.
+template <class M, class X>
+[[gnu::always_inline]] inline X const& value(Masked<M, X> const& field)
+{
+    return field.x;
+}
+template <class X>
+[[gnu::always_inline]] inline X const& value(X const& field)
+{
+    return field;
+}
 /// No mask: every lane counts.
 struct Always {};
 
@@ -133,7 +144,8 @@ struct View {
             else return H::template has<F>;
         }();
         constexpr bool read = Readable::template contains<F>;
-        if constexpr (adds_to) return slot(*sums, f);
+        if constexpr (std::same_as<F, Elapsed> && !std::is_void_v<H>) return (kept->elapsed);
+        else if constexpr (adds_to) return slot(*sums, f);
         else if constexpr (keeps_it) return slot(*kept, f);
         else if constexpr (read && R::template has<F>) return (record[f]);
         else if constexpr (read && U::template has<F>) return (uniform[f]);

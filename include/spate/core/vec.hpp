@@ -90,6 +90,23 @@ struct Along {
     [[gnu::always_inline]] friend Scaled operator*(Along const& a, V const& s) { return s * a; }
 };
 
+/// a x b; in a plane what is axial has one component, along the normal of the plane.
+template <class V>
+[[gnu::always_inline]] inline Vec<3, V> cross(Vec<3, V> const& a, Vec<3, V> const& b)
+{
+    return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
+}
+template <class V>
+[[gnu::always_inline]] inline Vec<1, V> cross(Vec<2, V> const& a, Vec<2, V> const& b)
+{
+    return {{a[0] * b[1] - a[1] * b[0]}};
+}
+template <class V>
+[[gnu::always_inline]] inline Vec<2, V> cross(Vec<2, V> const& a, Vec<1, V> const& axial)
+{
+    return {{a[1] * axial[0], -(a[0] * axial[0])}};
+}
+
 /// The same vector in all lanes.
 template <class V, int Dim, class T>
 [[gnu::always_inline]] inline Vec<Dim, V> broadcast(Vec<Dim, T> const& a)

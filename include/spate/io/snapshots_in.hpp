@@ -50,6 +50,7 @@ template <class Particles, class F>
     if constexpr (!Particles::template has<F>)
         for (int c = 0; c < column.components; ++c) column.values.push_back(std::numeric_limits<float>::quiet_NaN());
     else if constexpr (F::rank == 0) column.values.push_back(float(p.at(field, i)));
+    else if constexpr (F::axial && Particles::dim < 3) column.values.push_back(float(p.at(field, i)[0]));
     else {
         const auto v = p.at(field, i);
         for (int c = 0; c < 3; ++c) column.values.push_back(c < Particles::dim ? float(v[c]) : 0.0F);
@@ -67,7 +68,10 @@ template <class Scene>
     Cloud cloud;
     cloud.time = scene.time();
     cloud.step = scene.steps();
-    for_each(fields, [&]<class F>(F) { cloud.columns.push_back({std::string(F::name), F::rank == 0 ? 1 : 3, {}}); });
+    for_each(fields, [&]<class F>(F) {
+        const bool one = F::rank == 0 || (F::axial && Mobile::dim < 3);
+        cloud.columns.push_back({std::string(F::name), one ? 1 : 3, {}});
+    });
     scene.system().each_species([&](auto s) {
         auto const& p = scene.system().template species<s()>().particles;
         for (const std::size_t i : detail::by_id(p.id())) {
@@ -82,23 +86,37 @@ template <class Scene>
     return cloud;
 }
 
-/// An output of Simulation::run. A series has write(cloud), which returns the file, and times() of what it has written.
+/// An output of Simulation::run. A series has write(cloud), which returns the file, times() of what it has
+/// written, and go_on_from(times): the next one follows these.
 template <class Series>
 class SnapshotsIn {
 public:
     /// \param every  interval between two snapshots [s]; 0: the last state only
-    SnapshotsIn(Series series, double every) : series_(std::move(series)), interval_(every), every_(every)
+    SnapshotsIn(Series series, double every)
+        : series_(std::move(series)), interval_(every), every_(every), even_times_(series_.times())
     {
         require_non_negative("Snapshots.every", every, "s");
     }
-    void begin(auto& scene) { step(scene); }
+    void begin(auto& scene)
+    {
+        series_.go_on_from(even_times_), written_ = even_written_;
+        step(scene);
+    }
     void step(auto& scene)
     {
-        if (interval_ > 0 && every_.due(scene.time())) write(scene);
+        if (interval_ <= 0 || !every_.due(scene.time())) return;
+        write(scene);
+        even_written_ = written_, even_times_ = series_.times();
     }
     void end(auto& scene)
     {
         if (written_ != scene.steps()) write(scene);
+    }
+    /// What a restart needs: f(name, numbers).
+    void notes(auto const& f)
+    {
+        every_.notes("snapshots", f);
+        f("snapshots_written", even_written_), f("snapshots_times", even_times_);
     }
     std::filesystem::path const& last() const { return last_; }
     std::size_t count() const { return series_.times().size(); }
@@ -115,7 +133,8 @@ private:
     double interval_; ///< [s]
     detail::Every every_;
     std::filesystem::path last_;
-    std::int64_t written_ = -1; ///< step of the last one
+    std::int64_t written_ = -1, even_written_ = -1; ///< step of the last one; of the last but that of the end
+    std::vector<double> even_times_;                ///< of all but that of the end, which a run that goes on writes over
 };
 
 } // namespace spate::io

@@ -5,6 +5,8 @@
 
 #include "spate/core/fields.hpp"
 
+#include <vector>
+
 namespace spate {
 
 /// [J], of all mobile particles.
@@ -32,8 +34,33 @@ Energy energy_of(S const& s, Eos const* eos, Vec<Dim, double> const& g)
         e.potential = s.sum([&](std::size_t i) { return -mass_of(i) * g.dot(p.at(position, i)); });
     if constexpr (!std::is_void_v<Eos> && Q::template has<Density>)
         e.internal = s.sum([&](std::size_t i) { return mass_of(i) * eos->energy_of(p.at(density, i)); });
-    else e.internal = s.pair_energy();
+    else e.internal = s.pair_energy() + s.wall_energy();
     return e;
 }
+
+/// Some particles of a system, as energy_of and sums see them; contacts between one of them and another count wholly.
+template <class S>
+struct Some {
+    S const& system;
+    std::vector<char> const& is; ///< by particle
+    bool contacts;               ///< whether they may touch; lists must be current
+
+    auto const& mobile() const { return system.mobile(); }
+    [[nodiscard]] double sum(auto const& f) const
+    {
+        return system.sum([&](std::size_t i) { return is[i] != 0 ? f(i) : 0.0; });
+    }
+    [[nodiscard]] double pair_energy() const
+    {
+        if (!contacts) return 0;
+        return system.pair_energy([&](std::size_t i, std::size_t j) {
+            return is[i] == 0 ? 0.0 : is[j] != 0 ? 0.5 : 1.0;
+        });
+    }
+    [[nodiscard]] double wall_energy() const
+    {
+        return contacts ? sum([&](std::size_t i) { return system.wall_energy_of(i); }) : 0;
+    }
+};
 
 } // namespace spate

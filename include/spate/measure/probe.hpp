@@ -56,7 +56,7 @@ private:
         Value<F, Dim, double> v;
         if constexpr (F::rank == 0) v = value;
         else
-            for (int c = 0; c < Dim; ++c) v[c] = value;
+            for (int c = 0; c < components<F, Dim>; ++c) v[c] = value;
         return v;
     }
 };

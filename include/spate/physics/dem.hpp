@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// \brief The model of equal round grains: mass and radius are uniform, so no array holds them.
+/// \brief The models of round grains: equal ones, whose mass and radius no array holds, or of many sizes; and what a term of
+/// a contact takes from the others.
 #pragma once
 
+#include "spate/physics/dem/dashpot.hpp"
 #include "spate/physics/dem/discs.hpp"
+#include "spate/physics/dem/friction.hpp"
 #include "spate/physics/dem/linear_spring.hpp"
 #include "spate/physics/gravity.hpp"
 #include "spate/physics/physics.hpp"
@@ -20,7 +23,18 @@ auto dem(Grain grain, T... term)
 {
     require_positive("Grain.mass", grain.mass, "kg");
     require_positive("Grain.radius", grain.radius, "m");
-    return physics(Round<Dim>{grain.radius}, Uniform{mass, grain.mass}, Uniform{radius, grain.radius}, term...);
+    return physics(Round<Dim>{grain.radius}, Uniform{mass, grain.mass}, Uniform{radius, grain.radius},
+                   detail::completed(term, term...)...);
+}
+
+/// Grains of many sizes; mass and radius are fields: `dem<2>(Mixture{.largest = 0.02}, LinearSpring{.k = 1e5})`.
+struct Mixture {
+    double largest; ///< radius of the largest grain [m]
+};
+template <int Dim, class... T>
+auto dem(Mixture mixture, T... term)
+{
+    return physics(Round<Dim>{mixture.largest}, detail::completed(term, term...)...);
 }
 
 } // namespace spate

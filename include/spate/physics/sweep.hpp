@@ -24,6 +24,13 @@ struct Packed {
     Array<T> data;
 };
 
+/// How a sweep treats what terms keep of a pair.
+struct Carry {
+    double elapsed = 0; ///< from the state that it belongs to, to that of the sweep [s]
+    bool keep = false;  ///< it becomes what the terms make of it; else they make it for this sweep only
+    double reach = 1;   ///< ... and goes on at that rate, to this many times the elapsed time
+};
+
 /// One source of a sweep: its records, what is uniform in it, the lists target <- source, and the terms that read it.
 /// \tparam Kept_  what the terms keep of its pairs
 template <Mask terms_, class Kept_, class P, class R>
@@ -37,6 +44,7 @@ struct Source {
     bool same; ///< the target's own species
     std::vector<Array<typename P::real>>*
         memory; ///< of the pairs, by cell; of W lanes together, component by component
+    Carry carry;
 };
 
 namespace detail {
@@ -83,29 +91,43 @@ struct Kept;
 template <int Dim, class V, class... F>
 struct Kept<Dim, V, Fields<F...>> {
     using L = Layout<Dim, Fields<F...>>;
-    Record<Dim, V, Fields<F...>> record;
+    struct Seen : Record<Dim, V, Fields<F...>> {
+        V elapsed; ///< as i[elapsed] [s]
+    } record;
     scalar_t<V>* at;
 
-    [[gnu::always_inline]] explicit Kept(scalar_t<V>* place) : at(place)
+    [[gnu::always_inline]] Kept(scalar_t<V>* place, V const& elapsed) : at(place)
     {
+        record.elapsed = elapsed;
         each([&](V& v, int k) { v = load<V>(at + k * width<V>); });
     }
-    [[gnu::always_inline]] void put_back(auto const& mask)
+    [[gnu::always_inline]] void put_back(auto const& mask, Carry const& carry)
     {
-        each([&](V& v, int k) { store(at + k * width<V>, where(mask, v, V(0))); });
+        each([&](V& v, int k) { store(at + k * width<V>, where(mask, reached(v, k, carry), V(0))); });
     }
-    [[gnu::always_inline]] void put_back()
+    [[gnu::always_inline]] void put_back(Carry const& carry)
     {
-        each([&](V& v, int k) { store(at + k * width<V>, v); });
+        each([&](V& v, int k) { store(at + k * width<V>, reached(v, k, carry)); });
+    }
+    /// None of the pairs is in contact.
+    [[gnu::always_inline]] static void forget(scalar_t<V>* place)
+    {
+        for (int k = 0; k < L::count; ++k) store(place + k * width<V>, V(0));
     }
 
 private:
+    [[gnu::always_inline]] V reached(V const& v, int k, Carry const& carry) const
+    {
+        if (carry.reach == 1) return v;
+        const V old = load<V>(at + k * width<V>);
+        return old + carry.reach * (v - old);
+    }
     [[gnu::always_inline]] void each(auto const& f)
     {
         auto one = [&]<class G>(G g) {
             if constexpr (G::rank == 0) f(record[g], L::template offset<G>);
             else
-                for (int c = 0; c < Dim; ++c) f(record[g][c], L::template offset<G> + c);
+                for (int c = 0; c < components<G, Dim>; ++c) f(record[g][c], L::template offset<G> + c);
         };
         (one(F{}), ...);
     }
@@ -139,10 +161,17 @@ template <class V, class I, class Tuple, class Ri, class Ui, class A, class Src>
         constexpr auto terms = std::make_index_sequence<std::tuple_size_v<Tuple>>{};
         if constexpr (Src::Kept::size > 0) {
             using Memory = Kept<I::dim, V, typename Src::Kept>;
-            Memory kept((*source.memory)[cell].data() + at * std::size_t(Memory::L::count));
+            scalar_t<V>* const place = (*source.memory)[cell].data() + at * std::size_t(Memory::L::count);
+            if constexpr (requires { ij.mask; })
+                if (!spate::any(ij.mask)) {
+                    if (source.carry.keep) Memory::forget(place);
+                    continue;
+                }
+            Memory kept(place, V(source.carry.elapsed));
             apply_all<Src::terms>(all, ri, ui, rj, uj, mine, ij, terms, &kept.record);
-            if constexpr (requires { ij.mask; }) kept.put_back(ij.mask);
-            else kept.put_back();
+            if (!source.carry.keep) continue;
+            if constexpr (requires { ij.mask; }) kept.put_back(ij.mask, source.carry);
+            else kept.put_back(source.carry);
         }
         else {
             if constexpr (requires { ij.mask; })

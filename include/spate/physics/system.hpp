@@ -14,8 +14,10 @@
 #include "spate/physics/model.hpp"
 #include "spate/physics/sweep.hpp"
 
+#include <atomic>
 #include <functional>
 #include <mutex>
+#include <optional>
 
 namespace spate {
 
@@ -28,6 +30,9 @@ public:
     static constexpr int dim = M::dim;
     static constexpr int species_count = M::species;
     static constexpr std::size_t task = 2048; ///< particles in a task of a pass; a multiple of every pack
+
+    /// Whether walls reflect what has gone through them.
+    static constexpr bool reflects = requires(B const b, Vec<dim, double> x) { b.reflect(x, x, 0.0); };
 
     /// Whether any term looks at neighbours.
     static constexpr bool any_pairs =
@@ -129,12 +134,12 @@ public:
     void rebuild(bool wide = false)
     {
         wrap();
-        set_memory_aside();
         if constexpr (!alone) {
             each_species([&](auto s) { remember_places<s()>(); });
             if (have_lists_ && balance_due()) cut_by_cost();
-            go_home(true);
         }
+        set_aside(); // sorting may stop: the lists would be of another order
+        if constexpr (!alone) go_home(true);
         together(ranks(), [&] {
             each_species([&](auto s) {
                 auto& x = species<s()>();
@@ -152,9 +157,9 @@ public:
     /// Gives cells to other ranks by new cuts; lists, their skins, and when they are built anew stay as they are.
     void redistribute(Shares<dim> shares)
     {
-        set_memory_aside();
+        set_aside();
         parts_.use(std::move(shares));
-        std::array<std::vector<double>, std::size_t(species_count)> skin;
+        std::array<std::vector<double>, std::size_t(species_count)> skin, of_patch;
         each_species([&](auto s) { skin[std::size_t(s())] = skins_by_particle<s()>(); });
         go_home(true, &skin);
         each_species([&](auto s) {
@@ -162,15 +167,41 @@ public:
             const auto patch = patches<s()>();
             x.bins.sort(x.particles, grid_, built<s()>);
             if (skins_.uniform()) return;
-            std::vector<double> of_patch(x.bins.cells() * Skins<dim>::patches_of_cell(grid_), neighbours_.closed_in());
+            auto& mine = of_patch[std::size_t(s())];
+            mine.assign(x.bins.cells() * Skins<dim>::patches_of_cell(grid_), neighbours_.closed_in());
             for (std::size_t i = 0; i < patch.size(); ++i)
-                of_patch[number_of_patch(patch[i], x.bins, grid_)] = skin[std::size_t(s())][i];
-            skins_.restore(s(), std::move(of_patch));
+                mine[number_of_patch(patch[i], x.bins, grid_)] = skin[std::size_t(s())][i];
         });
+        if (!skins_.uniform()) skins_.use(neighbours_.closed_in(), std::move(of_patch), ranks());
         sorted_markers_ = true;
         meet_others();
         if (neighbours_.local && any_pairs) look_around();
         build_lists();
+    }
+    /// Takes what terms keep of pairs out of lists that are about to go; to call before particles come, go or change places.
+    void set_aside()
+    {
+        if (!have_lists_ || !lists_know_all()) return;
+        each_memory([&](auto s, auto q, auto& aside, auto& memory) {
+            aside.take(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
+                       species<q()>().particles, species<q()>().bins, width<V>, foreign<q()>());
+        });
+        have_lists_ = false;
+    }
+    /// Only mobile particles order[0], order[1], ... remain; what was kept of pairs with the others is forgotten.
+    [[gnu::cold]] void keep(std::vector<std::int32_t> const& order)
+    {
+        set_aside();
+        mobile().keep(order);
+        std::vector<std::uint32_t> ids = mobile().id();
+        std::sort(ids.begin(), ids.end());
+        each_memory([&](auto s, auto q, auto& aside, auto&) {
+            const auto gone = [&](int species, std::uint32_t id) {
+                return species == 0 && !std::binary_search(ids.begin(), ids.end(), id);
+            };
+            aside.forget([&](std::uint32_t i, std::uint32_t j) { return gone(s(), i) || gone(q(), j); });
+        });
+        resized();
     }
     /// Whether lists may miss a pair of positions up to x + v t + a t2. Two mobile particles close in by no more than the
     /// diagonal of the box of all displacements, one on a marker by no more than the largest of them.
@@ -191,12 +222,18 @@ public:
             const double side = e.most_move[c] - e.least_move[c] + t * (e.most_velocity[c] - e.least_velocity[c]);
             diagonal2 += side * side;
         }
-        const double pair = std::sqrt(diagonal2) + 2 * t2 * e.acceleration;
+        double apart = std::sqrt(diagonal2);
+        if constexpr (!M::markers) apart = std::min(apart, 2 * (e.moved + t * e.speed)); // two that meet head-on
+        const double pair = apart + 2 * t2 * e.acceleration;
         double marker = M::markers ? e.moved + t * e.speed + t2 * e.acceleration : 0;
         if constexpr (M::moves) marker += e.wall_moved + t * e.wall_speed;
         return pair > marker ? pair : marker;
     }
-    void forget_lists() { have_lists_ = false, sorted_markers_ = false, kick_rates_ = false; }
+    void forget_lists()
+    {
+        set_aside();
+        have_lists_ = false, sorted_markers_ = false, kick_rates_ = false;
+    }
     /// Whether the kick rates are those of the present state: an integrator may begin with them.
     [[nodiscard]] bool kick_rates_current() const { return kick_rates_; }
     void keep_kick_rates() { kick_rates_ = true; }
@@ -207,14 +244,93 @@ public:
     [[nodiscard]] std::int64_t evaluations() const { return evaluations_; }
     [[nodiscard]] std::int64_t pairs_evaluated() const { return ranks().all(pairs_evaluated_, agree::Sum{}); }
 
-    // ---- rates
-    /// Brings the rates of the asked fields up to date in every species that has them.
-    template <class... F>
-    void rates(Fields<F...>)
+    // ---- going on from a checkpoint
+    /// f(name, number) for what has been counted, and for what is known of the lists.
+    template <class Self>
+    static void numbers_of(Self& self, auto const& f)
     {
-        static constexpr auto plan = M::template rates_plan<Fields<F...>>();
-        run<plan>();
-        if constexpr (plan.sweeps() > 0) ++evaluations_, pairs_evaluated_ += pairs_here();
+        f("have_lists", self.have_lists_), f("kick_rates_current", self.kick_rates_);
+        f("rebuilds", self.rebuilds_), f("evaluations", self.evaluations_);
+        f("pairs_evaluated", self.pairs_evaluated_), f("memory_age", self.due_);
+    }
+    /// The place of the patch that holds x.
+    static Index<dim> place(Vec<dim, double> const& x, Grid<dim> const& grid) { return Skins<dim>::place(x, grid); }
+    /// f(s, place of a patch, its skin) for each patch that holds particles, where skins differ by place.
+    void each_skin(auto const& f) const
+    {
+        each_species([&](auto s) {
+            auto const& skins = skins_.of(s());
+            auto const& bins = species<s()>().bins;
+            if (skins.uniform()) return;
+            for (std::size_t p = 0; p < skins.patches(); ++p)
+                if (!Skins<dim>::particles_of(bins, p, grid_).empty())
+                    f(s, Skins<dim>::place(bins, p, grid_), skins.of(p));
+        });
+    }
+    /// f(s, q, pairs) with what is kept of the pairs s <- q, sorted by ids.
+    void each_kept(auto const& f) const
+    {
+        each_species([&](auto s) {
+            each_species([&](auto q) {
+                constexpr int values = kept_values<s(), q()>;
+                if constexpr (values > 0) {
+                    PairMemory<T, values> now;
+                    if (have_lists_)
+                        now.take(lists<s(), q()>(), memory_[std::size_t(s() * species_count + q())],
+                                 species<s()>().particles, species<s()>().bins, species<q()>().particles,
+                                 species<q()>().bins, width<V>, foreign<q()>());
+                    f(s, q, now.pairs());
+                }
+            });
+        });
+    }
+    /// Builds the lists that a checkpoint was written with: from where particles were when those were built, with the
+    /// skins of then. Lists built from the positions of now would have their neighbours in another order.
+    /// \param local  skins differ by place: skin_of(s, place)
+    /// \param pairs_of  (s, q, type of a pair) -> what was kept of the pairs, sorted by ids
+    [[gnu::cold]] void restore_lists(bool local, auto const& skin_of, auto const& pairs_of)
+    {
+        make_room();
+        each_memory([&]<class Aside>(auto s, auto q, Aside& aside, auto&) {
+            aside.put(pairs_of(s, q, std::type_identity<typename Aside::Pair>{}));
+        });
+        if (!have_lists_) return;
+        each_species([&](auto s) {
+            auto& x = species<s()>();
+            swap_with_built(x.particles);
+            x.bins.sort(x.particles, grid_);
+        });
+        sorted_markers_ = true;
+        choose_skins(true);
+        if (local) {
+            std::array<std::vector<double>, std::size_t(species_count)> of_patch;
+            each_species([&](auto s) {
+                auto const& bins = species<s()>().bins;
+                auto& skin = of_patch[std::size_t(s())];
+                skin.assign(skins_.of(s()).patches(), neighbours_.closed_in());
+                for (std::size_t p = 0; p < skin.size(); ++p)
+                    if (!Skins<dim>::particles_of(bins, p, grid_).empty())
+                        skin[p] = skin_of(s, Skins<dim>::place(bins, p, grid_));
+            });
+            skins_.use(neighbours_.closed_in(), std::move(of_patch), ranks());
+        }
+        build_lists();
+        each_species([&](auto s) { swap_with_built(species<s()>().particles); });
+    }
+
+    // ---- rates
+    /// Brings the rates of the asked fields up to date in every species that has them. What terms keep of pairs comes along
+    /// to where the positions are; but not between save() and advance_saved(), where a state is only tried.
+    template <class... F>
+    void rates(Fields<F...> asked)
+    {
+        evaluate(asked, Carry{due_, !trial_, 1});
+    }
+    /// The rates with which a step of dt from the saved state is made: what terms keep of pairs comes along to its end.
+    template <class... F>
+    void rates(Fields<F...> asked, double dt)
+    {
+        evaluate(asked, Carry{due_, true, due_ > 0 ? dt / due_ : 1});
     }
     /// Brings what terms derive from the state (pressure, ...) up to date.
     void refresh()
@@ -265,15 +381,18 @@ public:
     void advance(Fields<F...> set, double dt)
     {
         advance_from<false>(dt, set);
+        if (Fields<F...>::template contains<Position>) due_ += dt, moved_ += dt;
     }
     template <class... F, class... G>
     void advance(Fields<F...> first, Fields<G...> then, double dt)
     {
         advance_from<false>(dt, first, then);
+        if (Fields<F..., G...>::template contains<Position>) due_ += dt, moved_ += dt;
     }
     /// Remembers all evolving fields as the start of the step.
     void save()
     {
+        trial_ = true, moved_ = 0;
         each_species([&](auto s) {
             auto& x = species<s()>();
             for_each(M::template evolving<s()>(), [&](auto f) {
@@ -287,7 +406,10 @@ public:
     void advance_saved(Fields<F...> first, Fields<G...> then, double dt)
     {
         advance_from<true>(dt, first, then);
+        due_ += dt - moved_, trial_ = false;
     }
+    /// The time by which positions are ahead of what terms keep of pairs [s].
+    [[nodiscard]] double memory_age() const { return due_; }
 
     // ---- measures
     /// \tparam with_acceleration  whether anyone asks for max |a|
@@ -319,39 +441,79 @@ public:
     /// Half the sum over directed pairs of what the terms of contact store, energy(ij) [J]; lists must be current.
     [[nodiscard]] double pair_energy() const
     {
-        auto const& p = mobile();
-        const std::size_t n = p.size();
+        return pair_energy([](std::size_t, std::size_t) { return 0.5; });
+    }
+    /// The same with the share of the directed pair of particles i, j that counts; an image counts as its particle.
+    [[nodiscard]] double pair_energy([[maybe_unused]] auto const& share) const
+    {
         ExactSum total;
         std::mutex lock;
         if constexpr (M::planner.meet(0, 0) && has_pair_energy) {
             if constexpr (!alone) bring_records<0, M::mask(Interaction::reads & ParticlesOf<0>::fields)>();
             backend_.for_each(species<0>().bins.cells(), [&](std::size_t cell) {
-                auto const& lists = this->template lists<0, 0>().of_cell(cell);
-                const auto first = std::size_t(species<0>().bins.begin(cell));
-                const auto ui = p.template uniforms<double>();
-                ExactSum mine;
-                for (std::size_t slot = 0; slot < lists.index.size(); ++slot) {
-                    const auto j = this->template lists<0, 0>().number(lists.index[slot]);
-                    if (j == n) continue;
-                    std::size_t block = 0;
-                    const std::size_t row = slot / std::size_t(width<V>);
-                    block = std::size_t(std::upper_bound(lists.begin.begin(), lists.begin.end(), std::int32_t(row)) -
-                                        lists.begin.begin()) -
-                            1;
-                    const std::size_t i =
-                        first + std::size_t(lists.target[block * std::size_t(width<V>) + slot % std::size_t(width<V>)]);
-                    auto ri = double_record(p, i), rj = double_record_of(j);
-                    const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, ui, rj, ui);
-                    detail::each_in(terms_, [&](auto const& t) {
-                        if constexpr (requires { t.energy(ij); }) mine.add(0.5 * t.energy(ij));
-                    });
-                }
+                const ExactSum mine = pair_energy_of(cell, share);
                 const std::lock_guard hold(lock);
                 total += mine;
             });
         }
         return ranks().all(total, agree::Sum{}).value();
     }
+    /// What a mobile particle stores in walls that it touches, wall_energy(i) of a term [J].
+    [[nodiscard]] double wall_energy_of(std::size_t i) const
+    {
+        double e = 0;
+        detail::each_in(terms_, [&](auto const& t) {
+            if constexpr (requires { t.wall_energy(AsDouble{mobile(), i}); }) e += t.wall_energy(AsDouble{mobile(), i});
+        });
+        return e;
+    }
+    /// The sum of that.
+    [[nodiscard]] double wall_energy() const
+    {
+        constexpr bool any = []<class... X>(std::tuple<X...> const*) {
+            return (false || ... || requires { X::pushes; });
+        }(static_cast<typename M::Terms const*>(nullptr));
+        if constexpr (any) return sum([&](std::size_t i) { return wall_energy_of(i); });
+        else return 0;
+    }
+    /// What terms of a boundary without markers do to the particles: f(i, sums) with all that they add to particle i.
+    void wall_sums(auto const& f) const
+    {
+        using Sums = Record<dim, double, Set<(Fields<>{} | M::wall_adds)>>;
+        for (std::size_t i = 0; i < mobile().size(); ++i) {
+            Sums sums;
+            clear(sums);
+            Pushing<Sums> view{{mobile(), i}, sums};
+            detail::each_in(terms_, [&]<class X>(X const& t) {
+                if constexpr (requires { X::pushes; }) t(view);
+            });
+            f(i, sums);
+        }
+    }
+    /// Sends back what has gone through elastic walls. Returns whether any has.
+    bool reflect() requires(reflects)
+    {
+        auto& p = mobile();
+        std::atomic<bool> any = false, lost = false;
+        stretches<0>([&](std::size_t first, std::size_t last) {
+            constexpr auto W = std::size_t(width<V>);
+            for (std::size_t k = first; k < last; k += W) {
+                if (!boundary_.any_beyond(p.template load_at<V>(position, k), radius_at<V>(k))) continue;
+                for (std::size_t i = k; i < std::min(last, k + W); ++i) {
+                    Vec<dim, double> x = p.at(position, i), v = p.at(velocity, i);
+                    const auto bounce = boundary_.reflect(x, v, radius_at<double>(i));
+                    if (bounce == B::Bounce::none) continue;
+                    p.put(position, i, x), p.put(velocity, i, v);
+                    any = true;
+                    if (bounce == B::Bounce::too_many) lost = true;
+                }
+            }
+        });
+        lost_ = ranks().all(lost_ || lost, agree::Or{});
+        return ranks().all(bool(any), agree::Or{});
+    }
+    /// Whether a particle bounced too often within one step.
+    [[nodiscard]] bool lost() const { return lost_; }
     /// Bytes of all that is kept for the particles: columns, records, lists, bins.
     [[nodiscard, gnu::cold]] std::size_t bytes() const
     {
@@ -387,11 +549,7 @@ public:
             each_species([&](auto q) {
                 constexpr int values = kept_values<s(), q()>;
                 if constexpr (values > 0) {
-                    PairMemory<T, kept_values<s(), q()>> now;
-                    now.take(lists<s(), q()>(), memory_[std::size_t(s() * species_count + q())],
-                             species<s()>().particles, species<s()>().bins, species<q()>().particles,
-                             species<q()>().bins, width<V>, foreign<q()>());
-                    for (auto const& pair : now.pairs()) {
+                    for (auto const& pair : kept_of_pairs<s(), q()>()) {
                         std::uint64_t h =
                             mix(mix(mix(std::uint64_t(s() * species_count + q()) + 17) + pair.i) + pair.j);
                         for (T value : pair.value) {
@@ -406,14 +564,20 @@ public:
         });
         return ranks().all(total, agree::Sum{});
     }
+    /// What terms keep of the directed pairs s <- q, in the order of their ids; pairs of which it is zero are not there.
+    template <int s, int q>
+    [[nodiscard, gnu::cold]] auto kept_of_pairs() const
+    {
+        auto now = std::get<std::size_t(s * species_count + q)>(aside_);
+        if (have_lists_)
+            now.take(lists<s, q>(), memory_[std::size_t(s * species_count + q)], species<s>().particles,
+                     species<s>().bins, species<q>().particles, species<q>().bins, width<V>, foreign<q>());
+        return now.pairs();
+    }
     /// Makes room for the particles that have been added since.
     [[gnu::cold]] void resized()
     {
-        each_species([&](auto s) {
-            auto& x = species<s()>();
-            if (saves_) x.start.resize(x.particles.size());
-            x.particles.pad();
-        });
+        make_room();
         forget_lists();
     }
     /// Of what all ranks have been given alike each keeps its own. \param cut  by new cuts, of like numbers of particles
@@ -499,9 +663,49 @@ private:
         return e;
     }
     using Interaction = typename M::Interaction;
+    /// Whether there are as many particles as when the lists were built.
+    [[nodiscard]] bool lists_know_all() const
+    {
+        bool all = true;
+        each_species([&](auto s) {
+            auto const& x = species<s()>();
+            const std::size_t cells = x.bins.cells();
+            all = all && x.particles.size() == (cells > 0 ? std::size_t(x.bins.end(cells - 1)) : 0);
+        });
+        return all;
+    }
     static constexpr bool has_pair_energy = []<class... X>(std::tuple<X...> const*) {
         return (false || ... || requires { X::stores_energy; });
     }(static_cast<typename M::Terms const*>(nullptr));
+    /// Of the targets in a cell: what is out of range is passed over.
+    [[nodiscard]] ExactSum pair_energy_of(std::size_t cell, auto const& share) const
+    {
+        auto const& p = mobile();
+        auto const& bins = species<0>().bins;
+        auto const& lists = this->template lists<0, 0>().of_cell(cell);
+        constexpr auto W = std::size_t(width<V>);
+        constexpr auto stride = std::uint32_t(Layout<dim, Set<M::template record<0>()>>::stride);
+        const std::size_t n = p.size(), first = std::size_t(bins.begin(cell));
+        const auto ui = p.template uniforms<double>();
+        const double range2 = physics_.interaction.range() * physics_.interaction.range();
+        ExactSum sum;
+        for (std::size_t block = 0; block + 1 < lists.begin.size(); ++block)
+            for (auto row = std::size_t(lists.begin[block]); row < std::size_t(lists.begin[block + 1]); ++row)
+                for (std::size_t lane = 0; lane < W; ++lane) {
+                    const std::size_t j = std::uint32_t(lists.index[row * W + lane]) / stride;
+                    if (j == n) continue;
+                    const std::size_t i = first + std::size_t(lists.target[block * W + lane]);
+                    if (j < n && (p.at(position, i) - p.at(position, j)).squaredNorm() > range2 * (1 + 1e-6)) continue;
+                    const double part = share(i, particle_of(j));
+                    if (part == 0) continue;
+                    const auto ri = double_record(p, i), rj = double_record_of(j);
+                    const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, ui, rj, ui);
+                    detail::each_in(terms_, [&](auto const& t) {
+                        if constexpr (requires { t.energy(ij); }) sum.add(part * t.energy(ij));
+                    });
+                }
+        return sum;
+    }
     /// The exact sum of what `fill` writes, a stretch of particles at a time; compiled once for all that is summed.
     double sum_of(std::function<void(std::size_t, std::size_t, double*)> const& fill) const
     {
@@ -518,6 +722,13 @@ private:
             total += mine;
         });
         return ranks().all(total, agree::Sum{}).value();
+    }
+    /// The mobile particle behind a record other than the sentinel; of others' there is none: n.
+    std::size_t particle_of(std::size_t j) const
+    {
+        auto const& of = species<0>().bins.images().of;
+        const std::size_t n = mobile().size();
+        return j < n ? j : j - n - 1 < of.size() ? std::size_t(of[j - n - 1]) : n;
     }
     /// Of the mobile particle behind a record other than the sentinel, as it is now.
     auto double_record_of(std::size_t j) const
@@ -552,6 +763,31 @@ private:
         });
         return r;
     }
+    template <class X>
+    [[nodiscard]] X radius_at(std::size_t i) const
+    {
+        if constexpr (!ParticlesOf<0>::template has<Radius>) return X(0);
+        else if constexpr (std::same_as<X, double>) return mobile().at(radius, i);
+        else return mobile().template load_at<X>(radius, i);
+    }
+    /// A particle as a term that computes in double reads it.
+    struct AsDouble {
+        ParticlesOf<0> const& particles;
+        std::size_t i;
+        auto operator[](auto f) const { return particles.at(f, i); }
+    };
+    /// The same, with sums of its own to add to.
+    template <class Sums>
+    struct Pushing {
+        AsDouble particle;
+        Sums& sums;
+        template <Field F>
+        decltype(auto) operator[](F f) const
+        {
+            if constexpr (Sums::template has<F>) return (sums[f]);
+            else return particle[f];
+        }
+    };
     static auto double_record(auto const& p, std::size_t i)
     {
         Record<dim, double, Set<(Interaction::reads & ParticlesOf<0>::fields)>> r;
@@ -601,6 +837,29 @@ private:
             if constexpr (((facts.writes | facts.adds) & M::mask(M::template evolving<0>())) != 0) kick_rates_ = false;
         }
     }
+    /// Whether a plan runs terms that keep something of pairs.
+    static constexpr bool keeps_something(auto const& plan)
+    {
+        Mask terms = 0;
+        for (int k = 0; k < plan.count; ++k)
+            if (plan.stage[std::size_t(k)].action == Action::sweep) terms |= plan.stage[std::size_t(k)].terms;
+        return [&]<class... X, std::size_t... t>(std::tuple<X...> const*, std::index_sequence<t...>) {
+            return (false || ... || (((terms >> t) & 1) != 0 && decltype(keeps<X>())::size > 0));
+        }(static_cast<typename M::Terms const*>(nullptr), std::make_index_sequence<std::size_t(M::terms)>{});
+    }
+    template <class... F>
+    void evaluate(Fields<F...>, [[maybe_unused]] Carry carry)
+    {
+        static constexpr auto plan = M::template rates_plan<Fields<F...>>();
+        if constexpr (keeps_something(plan)) {
+            carry_ = carry;
+            run<plan>();
+            carry_.reset();
+            if (carry.keep) due_ = carry.elapsed * (1 - carry.reach); // exact: reach is 1, or 2 at half a step
+        }
+        else run<plan>();
+        if constexpr (plan.sweeps() > 0) ++evaluations_, pairs_evaluated_ += pairs_here();
+    }
     template <auto const& plan>
     void run()
     {
@@ -637,7 +896,7 @@ private:
                     X zero;
                     if constexpr (decltype(f)::rank == 0) zero = V(0);
                     else
-                        for (int c = 0; c < dim; ++c) zero[c] = V(0);
+                        for (int c = 0; c < components<decltype(f), dim>; ++c) zero[c] = V(0);
                     p.template store_at<V>(f, i, zero);
                 });
                 detail_pass<terms>(p, i, std::make_index_sequence<std::size_t(M::terms)>{});
@@ -829,7 +1088,12 @@ private:
     {
         auto const& x = species<q>();
         return Source<terms, Set<kept<s, q>()>, ParticlesOf<q>, std::remove_cvref_t<decltype(x.packed)>>{
-            x.particles, x.packed, lists<s, q>(), s == q, &memory_[std::size_t(s * species_count + q)]};
+            x.particles,
+            x.packed,
+            lists<s, q>(),
+            s == q,
+            &memory_[std::size_t(s * species_count + q)],
+            carry_.value_or(Carry{due_})};
     }
     /// The sets one after the other, a stretch of particles at a time: it is in the cache for the second set.
     template <bool from_start, class... Sets>
@@ -864,14 +1128,6 @@ private:
         for (std::size_t i = first; i < last; i += std::size_t(width<V>))
             store(y + i, V(load<V>(y0 + i) + V(dt) * load<V>(rate + i)));
     }
-    void set_memory_aside()
-    {
-        each_memory([&](auto s, auto q, auto& aside, auto& memory) {
-            if (have_lists_)
-                aside.take(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
-                           species<q()>().particles, species<q()>().bins, width<V>, foreign<q()>());
-        });
-    }
     template <int s>
     void remember_places()
     {
@@ -879,6 +1135,15 @@ private:
         if constexpr (ParticlesOf<s>::template has<BuildPosition>)
             for (int c = 0; c < dim; ++c) p.column(build_position)[std::size_t(c)] = p.column(position)[std::size_t(c)];
     }
+    void make_room()
+    {
+        each_species([&](auto s) {
+            auto& x = species<s()>();
+            if (saves_) x.start.resize(x.particles.size());
+            x.particles.pad();
+        });
+    }
+    /// Builds the lists of sorted particles, and gives them what was set aside of the pairs.
     void build_lists()
     {
         const double range = physics_.interaction.range(), beyond = neighbours_.skin - neighbours_.closed_in();
@@ -896,6 +1161,7 @@ private:
         each_memory([&](auto s, auto q, auto& aside, auto& memory) {
             aside.give(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
                        species<q()>().particles, species<q()>().bins, width<V>, foreign<q()>());
+            aside.clear(); // it would be old news to lists to come
         });
         have_lists_ = true;
     }
@@ -1065,6 +1331,12 @@ private:
         return skin;
     }
 
+    static void swap_with_built(auto& particles)
+    {
+        if constexpr (std::remove_cvref_t<decltype(particles)>::template has<BuildPosition>)
+            std::swap(particles.column(position), particles.column(build_position));
+    }
+    /// Where velocities differ lists reach far; see Skins.
     void choose_skins(bool wide)
     {
         skins_.use(neighbours_.closed_in());
@@ -1150,7 +1422,10 @@ private:
     std::array<std::vector<Array<T>>, std::size_t(species_count* species_count)> memory_; ///< of pairs, by cell
     LocalSkins<dim, species_count> skins_;
     [[no_unique_address]] Parts parts_;
-    bool have_lists_ = false, sorted_markers_ = false, kick_rates_ = false;
+    bool have_lists_ = false, sorted_markers_ = false, kick_rates_ = false, lost_ = false;
+    std::optional<Carry> carry_; ///< of sweeps for rates; to others what is kept of pairs is only shown
+    double due_ = 0, moved_ = 0; ///< time since what is kept of pairs was kept, since the step was saved [s]
+    bool trial_ = false;         ///< between save() and advance_saved()
     std::int64_t rebuilds_ = 0, evaluations_ = 0, pairs_evaluated_ = 0, looks_ = 0;
 };
 

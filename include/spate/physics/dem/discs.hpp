@@ -6,16 +6,9 @@
 #include "spate/cells/neighbours.hpp"
 #include "spate/core/errors.hpp"
 #include "spate/core/fields.hpp"
+#include "spate/physics/dem/contact.hpp"
 
 namespace spate {
-
-/// What a term sees of a contact.
-template <int Dim, class V, class M>
-struct Contact {
-    Vec<Dim, V> n; ///< unit normal, from j to i
-    V overlap;     ///< r_i + r_j - |x_i - x_j| [m], positive in contact
-    M mask;        ///< the lanes in contact; the view applies it, terms never see it
-};
 
 /// Round particles of Dim dimensions that touch when nearer than the sum of their radii.
 template <int Dim>

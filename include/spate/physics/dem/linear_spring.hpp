@@ -5,6 +5,7 @@
 
 #include "spate/core/errors.hpp"
 #include "spate/core/fields.hpp"
+#include "spate/physics/dem/restitution.hpp"
 
 #include <cmath>
 
@@ -24,6 +25,17 @@ struct LinearSpring {
     static constexpr bool stores_energy = true;
     /// Elastic energy of a contact [J].
     [[nodiscard]] double energy(auto const& ij) const { return ij.overlap > 0 ? 0.5 * k * ij.overlap * ij.overlap : 0; }
+
+    // What other terms of a contact build on.
+    static constexpr bool normal = true;
+    /// Damping over the critical one for a coefficient of restitution e [-].
+    [[nodiscard]] static double damping(double e) { return damping_ratio(e); }
+    [[nodiscard]] static double damping_without_pull(double e) { return damping_ratio_without_pull(e); }
+    [[gnu::always_inline]] auto stiffness(auto const&, auto const&, auto const& ij) const
+    {
+        return typename std::remove_cvref_t<decltype(ij)>::value(k);
+    }
+    [[gnu::always_inline]] auto force(auto const&, auto const&, auto const& ij) const { return k * ij.overlap; }
 
     void operator()(auto& i, auto const&, auto const& ij) const
     {

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief Damping along the normal of a contact, from the coefficient of restitution.
+#pragma once
+
+#include "spate/core/errors.hpp"
+#include "spate/core/term.hpp"
+#include "spate/physics/dem/contact.hpp"
+#include "spate/physics/dem/normal_law.hpp"
+#include "spate/physics/dem/restitution.hpp"
+
+namespace spate {
+
+/// What a contact does where spring and dashpot together would pull.
+enum class Tail {
+    pulls, ///< it pulls until the overlap is zero
+    cut    ///< it does not: the force is never below zero
+};
+
+/// The dashpot of a given spring: m_i dv_i/dt = -c (v_ij . n) n, c = 2 zeta sqrt(k m_ij). Docs (9) to (11).
+template <class Spring>
+struct DashpotOn {
+    static constexpr Fields reads = Fields{velocity, mass} | (reads_i<Spring>() | reads_j<Spring>());
+    static constexpr Fields adds{acceleration};
+    static constexpr bool normal = true, dashpot = true;
+    Spring spring;
+    double zeta; ///< damping over the critical [-]
+    Tail tail;
+
+    /// c [N s/m].
+    [[gnu::always_inline]] auto damping(auto const& i, auto const& j, auto const& ij) const
+    {
+        return 2 * zeta * sqrt(spring.stiffness(i, j, ij) * reduced(i[mass], j[mass]));
+    }
+    [[gnu::always_inline]] auto force(auto const& i, auto const& j, auto const& ij) const
+    {
+        using V = typename std::remove_cvref_t<decltype(ij)>::value;
+        const V f = V(0) - damping(i, j, ij) * parting(i, j, ij);
+        return tail == Tail::pulls ? f : V(max(f, V(0) - spring.force(i, j, ij)));
+    }
+    void operator()(auto& i, auto const& j, auto const& ij) const
+    {
+        i[acceleration] += (force(i, j, ij) / i[mass]) * ij.n;
+    }
+};
+
+/// Dashpot with the coefficient of restitution e of a binary collision (Schwager & Poeschel 2007); its stiffness is
+/// that of the model's spring.
+struct Dashpot {
+    static constexpr bool normal = true;
+    double e;                ///< coefficient of restitution [-]
+    Tail tail = Tail::pulls; ///< e is met either way
+
+    auto with(auto const&... all) const
+    {
+        check();
+        auto const& spring = detail::spring_of(all...);
+        using Spring = std::remove_cvref_t<decltype(spring)>;
+        return DashpotOn<Spring>{spring, tail == Tail::pulls ? spring.damping(e) : spring.damping_without_pull(e),
+                                 tail};
+    }
+    [[gnu::cold]] void check() const
+    {
+        require(e >= 0 && e <= 1, "Dashpot.e", e, "0 to 1 [-]");
+        require(e > 0 || tail == Tail::pulls, "Dashpot.e", e,
+                "above 0 where the tail is cut [-]: it always leaves a rebound");
+    }
+};
+
+} // namespace spate
