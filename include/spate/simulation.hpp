@@ -448,9 +448,8 @@ private:
     }
     [[nodiscard]] Stiffness stiffness_of_all() const
     {
-        double m = 0;
-        if constexpr (Set<P::uniform>::template contains<Mass>) m = system_.mobile().value(mass);
-        Stiffness s = stiffness_of(physics(), m);
+        const double m = least(mass);
+        Stiffness s = stiffness_of(physics(), m, least(radius));
         detail::each_in(system_.terms(), [&](auto const& t) {
             if constexpr (requires { t.pushes; })
                 s.contact_frequency = std::max(s.contact_frequency, t.contact_frequency(m));
@@ -697,7 +696,7 @@ private:
             const auto [name, value] = detail::not_finite(p, i);
             throw BadInput(name + " of particle " + std::to_string(p.id()[i]), text(value), "a finite number");
         }
-        for_each(Q::fields & Fields{density, mass}, [&]<class F>(F f) {
+        for_each(Q::fields & Fields{density, mass, radius}, [&]<class F>(F f) {
             const std::size_t k = detail::first_by_id(p, [&](std::size_t j) { return !(p.at(f, j) > 0); });
             if (k < p.size())
                 throw BadInput(std::string(F::name) + " of particle " + std::to_string(p.id()[k]), text(p.at(f, k)),
@@ -770,6 +769,18 @@ private:
         if (o.dt > 0) return;
         const TimeStep t = time_step(stiffness_, o.cfl, 0, std::sqrt(g_.squaredNorm()));
         require(std::isfinite(t.dt), "dt", o.dt, "above 0: the model has no criterion that bounds the step");
+    }
+    /// The least value among the particles of what contacts depend on; 0 where they don't carry it.
+    [[gnu::cold]] [[nodiscard]] double least([[maybe_unused]] auto field) const
+    {
+        auto const& p = system_.mobile();
+        if constexpr (!std::remove_cvref_t<decltype(p)>::template has<decltype(field)>) return 0;
+        else if constexpr (Set<P::uniform>::template contains<decltype(field)>) return p.value(field);
+        else {
+            double x = p.empty() ? 1 : p.at(field, 0);
+            for (std::size_t i = 0; i < p.size(); ++i) x = std::min(x, p.at(field, i));
+            return x;
+        }
     }
     void choose_dt(RunOptions const& o, Extremes const& e)
     {
@@ -881,7 +892,7 @@ private:
     /// Kinetic and stored energy at the start, or that of the fastest flow that the speed of sound was chosen for, c0/10.
     [[gnu::cold]] [[nodiscard]] double reference(Energy const& e) const
     {
-        double r = e.kinetic;
+        double r = e.kinetic + e.rotational;
         if constexpr (has_equation_of_state<P>) {
             const double u = equation_of_state(physics()).c0 / 10;
             auto const& p = system_.mobile();

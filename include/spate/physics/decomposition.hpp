@@ -80,9 +80,10 @@ public:
             if (home[i] == ranks_.rank()) stay.push_back(std::int32_t(i));
             else if (i < owned(s)) away[home[i]].push_back(std::int32_t(i));
         }
-        for (auto const& [rank, which] : away) {
+        for (auto const& leaving : away) {
+            auto const& which = leaving.second; // clang 14 hands no binding to a lambda
             report_.moved += std::int64_t(which.size());
-            Message& m = to[rank];
+            Message& m = to[leaving.first];
             m.put(s);
             m.put(picked(particles.id(), which));
             for_each(P::fields, [&](auto f) {

@@ -184,7 +184,7 @@ public:
         if (!have_lists_ || !lists_know_all()) return;
         each_memory([&](auto s, auto q, auto& aside, auto& memory) {
             aside.take(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
-                       species<q()>().particles, species<q()>().bins, width<V>, foreign<q()>());
+                       species<q()>().particles, species<q()>().bins, width<V>, backend_, foreign<q()>());
         });
         have_lists_ = false;
     }
@@ -278,7 +278,7 @@ public:
                     if (have_lists_)
                         now.take(lists<s(), q()>(), memory_[std::size_t(s() * species_count + q())],
                                  species<s()>().particles, species<s()>().bins, species<q()>().particles,
-                                 species<q()>().bins, width<V>, foreign<q()>());
+                                 species<q()>().bins, width<V>, backend_, foreign<q()>());
                     f(s, q, now.pairs());
                 }
             });
@@ -438,7 +438,8 @@ public:
             for (std::size_t i = first; i < last; ++i) *to++ = f(i);
         });
     }
-    /// Half the sum over directed pairs of what the terms of contact store, energy(ij) [J]; lists must be current.
+    /// Half the sum over directed pairs of what the terms of contact store, energy(ij) or energy(i, j, ij) [J]; lists must be
+    /// current.
     [[nodiscard]] double pair_energy() const
     {
         return pair_energy([](std::size_t, std::size_t) { return 0.5; });
@@ -449,7 +450,7 @@ public:
         ExactSum total;
         std::mutex lock;
         if constexpr (M::planner.meet(0, 0) && has_pair_energy) {
-            if constexpr (!alone) bring_records<0, M::mask(Interaction::reads & ParticlesOf<0>::fields)>();
+            if constexpr (!alone) bring_records<0, M::mask(read_for_energy() & ParticlesOf<0>::fields)>();
             backend_.for_each(species<0>().bins.cells(), [&](std::size_t cell) {
                 const ExactSum mine = pair_energy_of(cell, share);
                 const std::lock_guard hold(lock);
@@ -523,6 +524,9 @@ public:
             b += x.particles.bytes() + x.start.bytes() + x.bins.bytes() + x.packed.data.capacity() * sizeof(T);
         });
         for (auto const& l : lists_) b += l.bytes();
+        for (auto const& of_species : memory_)
+            for (auto const& of_cell : of_species) b += of_cell.capacity() * sizeof(T);
+        std::apply([&](auto const&... aside) { ((b += aside.bytes()), ...); }, aside_);
         b += skins_.bytes();
         return b;
     }
@@ -571,7 +575,7 @@ public:
         auto now = std::get<std::size_t(s * species_count + q)>(aside_);
         if (have_lists_)
             now.take(lists<s, q>(), memory_[std::size_t(s * species_count + q)], species<s>().particles,
-                     species<s>().bins, species<q>().particles, species<q>().bins, width<V>, foreign<q>());
+                     species<s>().bins, species<q>().particles, species<q>().bins, width<V>, backend_, foreign<q>());
         return now.pairs();
     }
     /// Makes room for the particles that have been added since.
@@ -675,7 +679,7 @@ private:
         return all;
     }
     static constexpr bool has_pair_energy = []<class... X>(std::tuple<X...> const*) {
-        return (false || ... || requires { X::stores_energy; });
+        return (false || ... || stores_energy<X>);
     }(static_cast<typename M::Terms const*>(nullptr));
     /// Of the targets in a cell: what is out of range is passed over.
     [[nodiscard]] ExactSum pair_energy_of(std::size_t cell, auto const& share) const
@@ -697,12 +701,8 @@ private:
                     const std::size_t i = first + std::size_t(lists.target[block * W + lane]);
                     if (j < n && (p.at(position, i) - p.at(position, j)).squaredNorm() > range2 * (1 + 1e-6)) continue;
                     const double part = share(i, particle_of(j));
-                    if (part == 0) continue;
-                    const auto ri = double_record(p, i), rj = double_record_of(j);
-                    const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, ui, rj, ui);
-                    detail::each_in(terms_, [&](auto const& t) {
-                        if constexpr (requires { t.energy(ij); }) sum.add(part * t.energy(ij));
-                    });
+                    if (part != 0)
+                        add_pair_energy(sum, part, cell, row, lane, double_record(p, i), double_record_of(j));
                 }
         return sum;
     }
@@ -754,7 +754,7 @@ private:
     {
         auto const& packed = species<0>().packed;
         using L = typename std::remove_cvref_t<decltype(packed)>::L;
-        Record<dim, double, Set<(Interaction::reads & ParticlesOf<0>::fields)>> r;
+        Record<dim, double, Set<(read_for_energy() & ParticlesOf<0>::fields)>> r;
         for_each(r.fields, [&]<class F>(F f) {
             T const* at = packed.data.data() + j * std::size_t(L::stride) + L::template offset<F>;
             if constexpr (F::rank == 0) r[f] = double(*at);
@@ -788,11 +788,54 @@ private:
             else return particle[f];
         }
     };
+    /// What the terms that store energy read of a pair, or keep.
+    static constexpr auto read_for_energy()
+    {
+        return []<class... X>(std::tuple<X...> const*) {
+            auto one = []<class Y>(Y const*) {
+                if constexpr (stores_energy<Y>) return reads_i<Y>() | reads_j<Y>();
+                else return Fields<>{};
+            };
+            return (Interaction::reads | ... | one(static_cast<X const*>(nullptr)));
+        }(static_cast<typename M::Terms const*>(nullptr));
+    }
     static auto double_record(auto const& p, std::size_t i)
     {
-        Record<dim, double, Set<(Interaction::reads & ParticlesOf<0>::fields)>> r;
+        Record<dim, double, Set<(read_for_energy() & ParticlesOf<0>::fields)>> r;
         for_each(r.fields, [&](auto f) { r[f] = p.at(f, i); });
         return r;
+    }
+    /// \param part  of the energy of a pair that counts
+    void add_pair_energy(ExactSum& sum, double part, std::size_t cell, std::size_t row, std::size_t lane,
+                         auto const& ri, auto const& rj) const
+    {
+        const auto u = mobile().template uniforms<double>();
+        const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, u, rj, u);
+        if constexpr (requires { ij.mask; })
+            if (!ij.mask) return;
+        using Seen = typename detail::Kept<dim, double, Set<kept<0, 0>()>>::Seen;
+        Seen seen;
+        seen.elapsed = due_;
+        for_each(kept<0, 0>(), [&]<class F>(F f) {
+            using L = Layout<dim, Set<kept<0, 0>()>>;
+            auto const& from = memory_[0][cell];
+            auto at = [&](int c) {
+                return double(from[PairMemory<T, L::count>::place(row, L::template offset<F> + c, width<V>) + lane]);
+            };
+            if constexpr (F::rank == 0) seen[f] = at(0);
+            else
+                for (int c = 0; c < components<F, dim>; ++c) seen[f][c] = at(c);
+        });
+        detail::each_in(terms_, [&]<class X>(X const& t) {
+            if constexpr (requires { t.energy(ij); }) sum.add(part * t.energy(ij));
+            else if constexpr (stores_energy<X>) {
+                Record<dim, double, Set<adds<X>()>> sums;
+                clear(sums);
+                detail::apply(t, ri, u, rj, u, sums, ij, &seen); // what it keeps comes along to where the positions are
+                detail::with_views<X>(ri, u, rj, u, sums, ij, &seen,
+                                      [&](auto const& a, auto const& b) { sum.add(part * t.energy(a, b, ij)); });
+            }
+        });
     }
     static std::uint64_t mix(std::uint64_t z) // splitmix64 (Steele, Lea & Flood 2014)
     {
@@ -1087,13 +1130,9 @@ private:
     auto source()
     {
         auto const& x = species<q>();
+        auto& memory = memory_[std::size_t(s * species_count + q)];
         return Source<terms, Set<kept<s, q>()>, ParticlesOf<q>, std::remove_cvref_t<decltype(x.packed)>>{
-            x.particles,
-            x.packed,
-            lists<s, q>(),
-            s == q,
-            &memory_[std::size_t(s * species_count + q)],
-            carry_.value_or(Carry{due_})};
+            x.particles, x.packed, lists<s, q>(), s == q, &memory, carry_.value_or(Carry{due_})};
     }
     /// The sets one after the other, a stretch of particles at a time: it is in the cache for the second set.
     template <bool from_start, class... Sets>
@@ -1160,7 +1199,7 @@ private:
         });
         each_memory([&](auto s, auto q, auto& aside, auto& memory) {
             aside.give(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
-                       species<q()>().particles, species<q()>().bins, width<V>, foreign<q()>());
+                       species<q()>().particles, species<q()>().bins, width<V>, backend_, foreign<q()>());
             aside.clear(); // it would be old news to lists to come
         });
         have_lists_ = true;
