@@ -578,7 +578,7 @@ private:
             const auto [name, value] = detail::not_finite(p, i);
             throw BadInput(name + " of particle " + std::to_string(p.id()[i]), text(value), "a finite number");
         }
-        for_each(Q::fields & Fields{density, mass}, [&]<class F>(F f) {
+        for_each(Q::fields & Fields{density, mass, radius}, [&]<class F>(F f) {
             const std::size_t k = detail::first_by_id(p, [&](std::size_t j) { return !(p.at(f, j) > 0); });
             if (k < p.size())
                 throw BadInput(std::string(F::name) + " of particle " + std::to_string(p.id()[k]), text(p.at(f, k)),
@@ -640,12 +640,22 @@ private:
     [[gnu::cold]] void begin_run(RunOptions const& o)
     {
         if (step_ > 0) return;
-        double m = 0;
-        if constexpr (Set<P::uniform>::template contains<Mass>) m = system_.mobile().value(mass);
-        stiffness_ = stiffness_of(physics(), m);
+        stiffness_ = stiffness_of(physics(), least(mass), least(radius));
         if (o.dt > 0) return;
         const TimeStep t = time_step(stiffness_, o.cfl, 0, std::sqrt(g_.squaredNorm()));
         require(std::isfinite(t.dt), "dt", o.dt, "above 0: the model has no criterion that bounds the step");
+    }
+    /// The least value among the particles of what contacts depend on; 0 where they don't carry it.
+    [[gnu::cold]] [[nodiscard]] double least([[maybe_unused]] auto field) const
+    {
+        auto const& p = system_.mobile();
+        if constexpr (!std::remove_cvref_t<decltype(p)>::template has<decltype(field)>) return 0;
+        else if constexpr (Set<P::uniform>::template contains<decltype(field)>) return p.value(field);
+        else {
+            double x = p.empty() ? 1 : p.at(field, 0);
+            for (std::size_t i = 0; i < p.size(); ++i) x = std::min(x, p.at(field, i));
+            return x;
+        }
     }
     void choose_dt(RunOptions const& o, Extremes const& e)
     {
@@ -750,7 +760,7 @@ private:
     /// Kinetic and stored energy at the start, or that of the fastest flow that the speed of sound was chosen for, c0/10.
     [[gnu::cold]] [[nodiscard]] double reference(Energy const& e) const
     {
-        double r = e.kinetic;
+        double r = e.kinetic + e.rotational;
         if constexpr (has_equation_of_state<P>) {
             const double u = equation_of_state(physics()).c0 / 10;
             auto const& p = system_.mobile();

@@ -58,6 +58,42 @@ TEST(PairMemory, CountsEveryEvaluationOfAContactThroughRebuilds)
     }
     EXPECT_GT(box.system().rebuilds(), 20);
 }
+// What is kept is carried to where positions are: as old as the contact, whatever stages the integrator takes, and looking
+// at it changes nothing.
+struct Ageing {
+    static constexpr Fields adds{acceleration};
+    static constexpr Fields keeps{age};
+    static constexpr bool stores_energy = true;
+    void operator()(auto& i, auto const&, auto const& ij) const
+    {
+        i[age] = value(i[age]) + i[elapsed];
+        i[acceleration] += (1e-9 * value(i[age])) * ij.n;
+    }
+    double energy(auto const& i, auto const&, auto const&) const { return value(i[age]); }
+};
+template <class I>
+class PairMemoryOf : public testing::Test {};
+using Integrators = testing::Types<ForwardEuler, SymplecticEuler, Leapfrog, RungeKutta2>;
+TYPED_TEST_SUITE(PairMemoryOf, Integrators);
+
+TYPED_TEST(PairMemoryOf, IsAsOldAsTheContact)
+{
+    Simulation box(dem<2>({.mass = 0.1, .radius = r}, Ageing{}), TypeParam{}, Open{}, Serial{}, Double{}, NoWatch{});
+    box.add({0.5, 0.5});
+    box.add({0.5 + 1.5 * r, 0.5});
+    double t = 0;
+    for (int n = 1; n <= 50; ++n) {
+        const double step = n % 3 == 0 ? dt : dt / 4; // no two alike
+        box.run({.steps = 1, .dt = step});
+        t += step;
+        const auto hash = box.state_hash();
+        EXPECT_NEAR(box.energy().internal, t, 1e-12) << "after step " << n; // of two copies, half of each
+        EXPECT_EQ(box.state_hash(), hash);
+        const auto pairs = box.system().template kept_of_pairs<0, 0>();
+        const double kept = pairs.empty() ? 0 : pairs[0].value[0]; // zero is not listed
+        EXPECT_NEAR(kept + box.system().memory_age(), t, 1e-12);
+    }
+}
 TEST(PairMemory, DiesWithTheContactAndIsBornAtZero)
 {
     auto box = crowd(Serial{});

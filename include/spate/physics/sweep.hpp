@@ -51,10 +51,10 @@ namespace detail {
 template <Mask terms, std::size_t t>
 inline constexpr bool picked = ((terms >> t) & 1) != 0;
 
-/// One term on one pack of pairs; `kept` is the memory of the pairs.
-template <class Ri, class Ui, class Rj, class Uj, class A, class Pair, class T, class K = void>
-[[gnu::always_inline]] inline void apply(T const& term, Ri const& ri, Ui const& ui, Rj const& rj, Uj const& uj, A& sums,
-                                         Pair const& ij, K* kept = nullptr)
+/// f(i, j): a pair as the term T may see it; `kept` is the memory of the pair.
+template <class T, class Ri, class Ui, class Rj, class Uj, class A, class Pair, class K>
+[[gnu::always_inline]] inline void with_views(Ri const& ri, Ui const& ui, Rj const& rj, Uj const& uj, A& sums,
+                                              Pair const& ij, K* kept, auto const& f)
 {
     using Readable_i = std::remove_cvref_t<decltype(reads_i<T>())>;
     using Readable_j = std::remove_cvref_t<decltype(reads_j<T>())>;
@@ -66,12 +66,20 @@ template <class Ri, class Ui, class Rj, class Uj, class A, class Pair, class T, 
     if constexpr (requires { ij.mask; }) {
         using M = std::remove_cvref_t<decltype(ij.mask)>;
         View<Readable_i, Addable, Ri, Ui, A, M, H> i{ri, ui, &sums, ij.mask, memory};
-        term(i, j, ij);
+        f(i, j);
     }
     else {
         View<Readable_i, Addable, Ri, Ui, A, Always, H> i{ri, ui, &sums, {}, memory};
-        term(i, j, ij);
+        f(i, j);
     }
+}
+/// One term on one pack of pairs.
+template <class Ri, class Ui, class Rj, class Uj, class A, class Pair, class T, class K = void>
+[[gnu::always_inline]] inline void apply(T const& term, Ri const& ri, Ui const& ui, Rj const& rj, Uj const& uj, A& sums,
+                                         Pair const& ij, K* kept = nullptr)
+{
+    with_views<T>(
+        ri, ui, rj, uj, sums, ij, kept, [&](auto& i, auto const& j) __attribute__((always_inline)) { term(i, j, ij); });
 }
 template <Mask terms, class Ri, class Ui, class Rj, class Uj, class A, class Pair, class... T, std::size_t... t,
           class K = void>

@@ -132,7 +132,7 @@ public:
         });
         each_memory([&](auto s, auto q, auto& aside, auto& memory) {
             aside.give(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
-                       species<q()>().particles, species<q()>().bins, width<V>);
+                       species<q()>().particles, species<q()>().bins, width<V>, backend_);
             aside.clear(); // it would be old news to lists to come
         });
         have_lists_ = true;
@@ -144,7 +144,7 @@ public:
         if (!have_lists_ || !lists_know_all()) return;
         each_memory([&](auto s, auto q, auto& aside, auto& memory) {
             aside.take(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
-                       species<q()>().particles, species<q()>().bins, width<V>);
+                       species<q()>().particles, species<q()>().bins, width<V>, backend_);
         });
         have_lists_ = false;
     }
@@ -343,7 +343,8 @@ public:
             for (std::size_t i = first; i < last; ++i) *to++ = f(i);
         });
     }
-    /// Half the sum over directed pairs of what the terms of contact store, energy(ij) [J]; lists must be current.
+    /// Half the sum over directed pairs of what the terms of contact store, energy(ij) or energy(i, j, ij) [J]; lists must be
+    /// current.
     [[nodiscard]] double pair_energy() const
     {
         return pair_energy([](std::size_t, std::size_t) { return 0.5; });
@@ -351,40 +352,34 @@ public:
     /// The same with the share of the directed pair of particles i, j that counts; an image counts as its particle.
     [[nodiscard]] double pair_energy([[maybe_unused]] auto const& share) const
     {
-        auto const& p = mobile();
-        auto const& images = species<0>().bins.images();
-        const std::size_t n = p.size();
         ExactSum total;
-        std::mutex lock;
-        if constexpr (M::planner.meet(0, 0) && has_pair_energy)
+        if constexpr (M::planner.meet(0, 0) && has_pair_energy) {
+            std::mutex lock;
+            auto const& images = species<0>().bins.images();
+            auto const& of_scene = this->template lists<0, 0>();
+            const std::size_t n = mobile().size();
+            constexpr auto W = std::size_t(width<V>);
             backend_.for_each(species<0>().bins.cells(), [&](std::size_t cell) {
-                auto const& lists = this->template lists<0, 0>().of_cell(cell);
+                auto const& lists = of_scene.of_cell(cell);
                 const auto first = std::size_t(species<0>().bins.begin(cell));
-                const auto ui = p.template uniforms<double>();
                 ExactSum mine;
-                for (std::size_t slot = 0; slot < lists.index.size(); ++slot) {
-                    const auto j = this->template lists<0, 0>().number(lists.index[slot]);
-                    if (j == n) continue;
-                    std::size_t block = 0;
-                    const std::size_t row = slot / std::size_t(width<V>);
-                    block = std::size_t(std::upper_bound(lists.begin.begin(), lists.begin.end(), std::int32_t(row)) -
-                                        lists.begin.begin()) -
-                            1;
-                    const std::size_t i =
-                        first + std::size_t(lists.target[block * std::size_t(width<V>) + slot % std::size_t(width<V>)]);
-                    const std::size_t of_j = j < n ? j : std::size_t(images.of[j - n - 1]);
-                    const double part = share(i, of_j);
-                    if (part == 0) continue;
-                    auto ri = double_record(p, i), rj = double_record(p, of_j);
-                    if (j > n) rj[position] += shift_of(images.code[j - n - 1], grid_);
-                    const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, ui, rj, ui);
-                    detail::each_in(terms_, [&](auto const& t) {
-                        if constexpr (requires { t.energy(ij); }) mine.add(part * t.energy(ij));
-                    });
-                }
+                for (std::size_t block = 0; block + 1 < lists.begin.size(); ++block)
+                    for (std::size_t lane = 0; lane < W; ++lane) {
+                        const std::size_t i = first + std::size_t(lists.target[block * W + lane]);
+                        for (auto row = std::size_t(lists.begin[block]); row < std::size_t(lists.begin[block + 1]);
+                             ++row) {
+                            const std::size_t j = of_scene.number(lists.index[row * W + lane]);
+                            if (j == n) break; // the list of i ends here
+                            const std::size_t of_j = j < n ? j : std::size_t(images.of[j - n - 1]);
+                            if (const double part = share(i, of_j); part > 0)
+                                add_pair_energy(mine, part, cell, row, lane, i, of_j,
+                                                j < n ? 0 : images.code[j - n - 1]);
+                        }
+                    }
                 const std::lock_guard hold(lock);
                 total += mine;
             });
+        }
         return total.value();
     }
     /// The sum of what visit(sum, i, j, x, ij, force) makes of each directed contact i <- j of mobile particles: x = x_i - x_j
@@ -412,6 +407,9 @@ public:
             b += x.particles.bytes() + x.start.bytes() + x.bins.bytes() + x.packed.data.capacity() * sizeof(T);
         });
         for (auto const& l : lists_) b += l.bytes();
+        for (auto const& of_species : memory_)
+            for (auto const& of_cell : of_species) b += of_cell.capacity() * sizeof(T);
+        std::apply([&](auto const&... aside) { ((b += aside.bytes()), ...); }, aside_);
         b += skins_.bytes();
         return b;
     }
@@ -436,7 +434,8 @@ public:
         });
         each_species([&](auto s) {
             each_species([&](auto q) {
-                if constexpr (kept_values < s(), q() >> 0) {
+                constexpr int values = kept_values<s(), q()>;
+                if constexpr (values > 0) {
                     for (auto const& pair : kept_of_pairs<s(), q()>()) {
                         std::uint64_t h =
                             mix(mix(mix(std::uint64_t(s() * species_count + q()) + 17) + pair.i) + pair.j);
@@ -459,7 +458,7 @@ public:
         auto now = std::get<std::size_t(s * species_count + q)>(aside_);
         if (have_lists_)
             now.take(lists<s, q>(), memory_[std::size_t(s * species_count + q)], species<s>().particles,
-                     species<s>().bins, species<q>().particles, species<q>().bins, width<V>);
+                     species<s>().bins, species<q>().particles, species<q>().bins, width<V>, backend_);
         return now.pairs();
     }
     /// Makes room for the particles that have been added since.
@@ -513,7 +512,7 @@ private:
         return all;
     }
     static constexpr bool has_pair_energy = []<class... X>(std::tuple<X...> const*) {
-        return (false || ... || requires { X::stores_energy; });
+        return (false || ... || stores_energy<X>);
     }(static_cast<typename M::Terms const*>(nullptr));
     /// The exact sum of what `fill` writes, a stretch of particles at a time; compiled once for all that is summed.
     double sum_of(std::function<void(std::size_t, std::size_t, double*)> const& fill) const
@@ -601,11 +600,47 @@ private:
         for_each(R::fields, [&](auto f) { r[f] = p.at(f, i); });
         return r;
     }
+    /// What the terms that store energy read of a pair, or keep.
+    static constexpr auto read_for_energy()
+    {
+        return []<class... X>(std::tuple<X...> const*) {
+            auto one = []<class Y>(Y const*) {
+                if constexpr (stores_energy<Y>) return reads_i<Y>() | reads_j<Y>();
+                else return Fields<>{};
+            };
+            return (Interaction::reads | ... | one(static_cast<X const*>(nullptr)));
+        }(static_cast<typename M::Terms const*>(nullptr));
+    }
     static auto double_record(auto const& p, std::size_t i)
     {
-        Record<dim, double, Set<(Interaction::reads & ParticlesOf<0>::fields)>> r;
+        Record<dim, double, Set<(read_for_energy() & ParticlesOf<0>::fields)>> r;
         for_each(r.fields, [&](auto f) { r[f] = p.at(f, i); });
         return r;
+    }
+    void add_pair_energy(ExactSum& sum, double part, std::size_t cell, std::size_t row, std::size_t lane, std::size_t i,
+                         std::size_t j, int code) const
+    {
+        auto const& p = mobile();
+        const auto u = p.template uniforms<double>();
+        auto ri = double_record(p, i), rj = double_record(p, j);
+        if (code != 0) rj[position] += shift_of(code, grid_);
+        const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, u, rj, u);
+        if constexpr (requires { ij.mask; })
+            if (!ij.mask) return;
+        using Seen = detail::Kept<dim, double, Set<kept<0, 0>()>>::Seen;
+        Seen seen;
+        seen.elapsed = due_;
+        remembered<Set<kept<0, 0>()>>(seen, memory_[0], cell, row, lane);
+        detail::each_in(terms_, [&]<class X>(X const& t) {
+            if constexpr (requires { t.energy(ij); }) sum.add(part * t.energy(ij));
+            else if constexpr (stores_energy<X>) {
+                Record<dim, double, Set<adds<X>()>> sums;
+                clear(sums);
+                detail::apply(t, ri, u, rj, u, sums, ij, &seen); // what it keeps comes along to where the positions are
+                detail::with_views<X>(ri, u, rj, u, sums, ij, &seen,
+                                      [&](auto const& a, auto const& b) { sum.add(part * t.energy(a, b, ij)); });
+            }
+        });
     }
     static std::uint64_t mix(std::uint64_t z) // splitmix64 (Steele, Lea & Flood 2014)
     {
@@ -837,13 +872,9 @@ private:
     auto source()
     {
         auto const& x = species<q>();
+        auto& memory = memory_[std::size_t(s * species_count + q)];
         return Source<terms, Set<kept<s, q>()>, ParticlesOf<q>, std::remove_cvref_t<decltype(x.packed)>>{
-            x.particles,
-            x.packed,
-            lists<s, q>(),
-            s == q,
-            &memory_[std::size_t(s * species_count + q)],
-            carry_.value_or(Carry{due_})};
+            x.particles, x.packed, lists<s, q>(), s == q, &memory, carry_.value_or(Carry{due_})};
     }
     /// The sets one after the other, a stretch of particles at a time: it is in the cache for the second set.
     template <bool from_start, class... Sets>
