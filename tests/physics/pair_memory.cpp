@@ -117,4 +117,49 @@ TEST(PairMemory, DoesNotDependOnThreadsCellsOrPacks)
     two.run({.steps = 150, .dt = dt});
     EXPECT_EQ(one.state_hash(), two.state_hash());
 }
+TEST(PairMemory, SurvivesThatOthersComeAndGo)
+{
+    auto box = crowd(Serial{});
+    for (int n = 1; n <= 120; ++n) {
+        if (n % 3 == 0) box.remove([&](auto const& p, std::size_t i) { return p.id()[i] == std::uint32_t(1 + n / 3); });
+        if (n % 5 == 0) {
+            auto more = box.newcomers();
+            box.append(more, {0.9, 0.02 + 0.008 * n}, {1, 0});
+            box.enter(more);
+        }
+        if (n % 7 == 0) box.add({0.7, 0.02 + 0.008 * n}, {-1, 0});
+        box.run({.steps = 1, .dt = dt});
+        ASSERT_NEAR(push_on(box, 0), -n, 1e-9 * n) << "after step " << n;
+    }
+    EXPECT_EQ(box.exchanged().left.particles, 40);
+}
+TEST(PairMemory, OfAGrainThatLeavesIsForgotten)
+{
+    auto box = crowd(Serial{});
+    box.run({.steps = 5, .dt = dt});
+    auto pairs = [&] { return box.system().template kept_of_pairs<0, 0>(); };
+    const auto of_1 = [](auto const& pair) { return pair.i == 1 || pair.j == 1; };
+    auto count = [&] {
+        const auto all = pairs();
+        return std::count_if(all.begin(), all.end(), of_1);
+    };
+    ASSERT_EQ(count(), 2);
+    const auto all = pairs().size();
+    box.remove([](auto const& p, std::size_t i) { return p.id()[i] == 1; });
+    EXPECT_EQ(count(), 0);
+    EXPECT_EQ(pairs().size(), all - 2); // those of others are still known before lists are built again
+    box.run({.steps = 1, .dt = dt});
+    EXPECT_EQ(count(), 0);
+    EXPECT_EQ(push_on(box, 0), 0);
+}
+// Lists that are thrown away by hand, twice: what is kept is neither lost nor as it was when they were built.
+TEST(PairMemory, IsThatOfNowAfterListsWereForgotten)
+{
+    auto box = crowd(Serial{});
+    for (int n = 1; n <= 12; ++n) {
+        box.run({.steps = 1, .dt = dt});
+        ASSERT_NEAR(push_on(box, 0), -n, 1e-9 * n) << "after step " << n;
+        if (n % 3 == 0) box.prepare(), box.prepare();
+    }
+}
 } // namespace

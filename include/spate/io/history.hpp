@@ -41,13 +41,19 @@ public:
     {
         for (int c = 0; c < Dim; ++c) add(value[c]);
     }
+    template <int Dim>
+    void add(Eigen::Matrix<double, Dim, Dim> const& value)
+    {
+        for (int a = 0; a < Dim; ++a)
+            for (int b = 0; b < Dim; ++b) add(value(a, b));
+    }
     std::string const& text() const { return text_; }
 
 private:
     std::string text_;
 };
 
-/// "front" for a number, "force_x", "force_y", ... for a vector.
+/// "front" for a number, "force_x", "force_y", ... for a vector, "stress_xx", "stress_xy", ... for a tensor.
 inline std::vector<std::string> headings(std::string const& name, double) { return {name}; }
 template <int Dim>
 [[gnu::cold]] std::vector<std::string> headings(std::string const& name, Vec<Dim, double>)
@@ -57,11 +63,20 @@ template <int Dim>
     return all;
 }
 
+template <int Dim>
+[[gnu::cold]] std::vector<std::string> headings(std::string const& name, Eigen::Matrix<double, Dim, Dim> const&)
+{
+    std::vector<std::string> all;
+    for (int a = 0; a < Dim; ++a)
+        for (int b = 0; b < Dim; ++b) all.push_back(name + "_" + "xyz"[a] + "xyz"[b]);
+    return all;
+}
+
 } // namespace detail
 
 /// History{directory, 0.001, Front{...}, Probe{...}}: an output of Simulation::run. A column is anything with a name that,
-/// called with the scene, returns a number or a vector, or a range of such columns. Rows grow in history.csv.tmp and are
-/// history.csv when the run ends. A run that goes on keeps the rows that it had.
+/// called with the scene, returns a number, a vector or a tensor, or a range of such columns. Rows grow in
+/// history.csv.tmp and are history.csv when the run ends. A run that goes on keeps the rows that it had.
 template <class... Column>
 class History {
 public:

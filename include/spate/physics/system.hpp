@@ -515,6 +515,22 @@ public:
     }
     /// Whether a particle bounced too often within one step.
     [[nodiscard]] bool lost() const { return lost_; }
+    /// The sum of what visit(sum, i, j, x, ij, force) makes of each directed contact i <- j of mobile particles: x = x_i - x_j
+    /// [m], ij what terms see, force on i [N]. Lists must be current. Cells come in any order, so a Sum must not depend on it.
+    template <class Sum>
+    [[nodiscard]] Sum over_contacts(auto const& visit) const
+    {
+        static_assert(M::planner.meet(0, 0), "spate: contacts need a pair term, such as LinearSpring");
+        Sum total{};
+        std::mutex lock;
+        backend_.for_each(species<0>().bins.cells(), [&](std::size_t cell) {
+            Sum mine{};
+            each_contact(cell, [&](auto const&... what) { visit(mine, what...); });
+            const std::lock_guard hold(lock);
+            total += mine;
+        });
+        return total;
+    }
     /// Bytes of all that is kept for the particles: columns, records, lists, bins.
     [[nodiscard, gnu::cold]] std::size_t bytes() const
     {
@@ -619,14 +635,7 @@ public:
     template <int source>
     void partial_sums(auto const& finish)
     {
-        static constexpr Mask pair_terms = [] {
-            Mask m = 0;
-            for (int t = 0; t < M::terms; ++t)
-                if (M::planner.on(t, 0) && M::planner.from(t, 0, source) &&
-                    M::planner.term[std::size_t(t)].when == When::evaluation)
-                    m |= Mask(1) << t;
-            return m;
-        }();
+        static constexpr Mask pair_terms = pair_terms_from(source);
         auto& p = mobile();
         constexpr auto sums = M::template fields<added(pair_terms)>();
         Particles<dim, T, Set<sums>, Fields<>> kept;
@@ -788,6 +797,75 @@ private:
             else return particle[f];
         }
     };
+    /// Terms of an evaluation that act on the mobile particles from a source.
+    static constexpr Mask pair_terms_from(int source)
+    {
+        Mask m = 0;
+        for (int t = 0; t < M::terms; ++t)
+            if (M::planner.on(t, 0) && M::planner.from(t, 0, source) &&
+                M::planner.term[std::size_t(t)].when == When::evaluation)
+                m |= Mask(1) << t;
+        return m;
+    }
+    /// f(i, j, x, ij, force) for the contacts of one cell's particles, by the terms in double; memory is shown, not kept.
+    void each_contact(std::size_t cell, auto const& f) const
+    {
+        static constexpr Mask terms = pair_terms_from(0);
+        using Ri = Record<dim, double, Set<M::template fields<read_of_target(terms, 0)>()>>;
+        using Rj = Record<dim, double, Set<M::template record<0>()>>;
+        using K = Set<kept<0, 0>()>;
+        auto const& p = mobile();
+        auto const& images = species<0>().bins.images();
+        auto const& all = this->template lists<0, 0>();
+        auto const& lists = all.of_cell(cell);
+        const auto u = p.template uniforms<double>();
+        const auto first = std::size_t(species<0>().bins.begin(cell)), n = p.size(), W = std::size_t(width<V>);
+        for (std::size_t b = 0; b + 1 < lists.begin.size(); ++b)
+            for (auto row = std::size_t(lists.begin[b]); row < std::size_t(lists.begin[b + 1]); ++row)
+                for (std::size_t lane = 0; lane < W; ++lane) {
+                    const std::size_t entry = all.number(lists.index[row * W + lane]);
+                    if (entry == n) continue;
+                    const std::size_t i = first + std::size_t(lists.target[b * W + lane]);
+                    const std::size_t j = entry < n ? entry : std::size_t(images.of[entry - n - 1]);
+                    Ri ri = record_in_double<Ri>(p, i);
+                    Rj rj = record_in_double<Rj>(p, j);
+                    if (entry > n) rj[position] += shift_of(images.code[entry - n - 1], grid_);
+                    const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, u, rj, u);
+                    if (!ij.mask) continue;
+                    typename detail::Kept<dim, double, K>::Seen seen;
+                    seen.elapsed = due_;
+                    remembered<K>(seen, memory_[0], cell, row, lane);
+                    Record<dim, double, Set<M::template fields<added(terms)>()>> sums;
+                    clear(sums);
+                    detail::apply_all<terms>(terms_, ri, u, rj, u, sums, ij,
+                                             std::make_index_sequence<std::size_t(M::terms)>{}, &seen);
+                    f(i, j, ri[position] - rj[position], ij, p.at(mass, i) * sums[acceleration]);
+                }
+    }
+    /// What is kept of the pair at a place of the lists.
+    template <class K>
+    static void remembered(auto& to, auto const& memory, std::size_t cell, std::size_t row, std::size_t lane)
+    {
+        if constexpr (K::size > 0) {
+            using L = Layout<dim, K>;
+            constexpr int W = width<V>;
+            const auto value = [&](int k) {
+                return double(memory[cell][PairMemory<T, L::count>::place(row, k, W) + lane]);
+            };
+            for_each(K{}, [&]<class F>(F field) {
+                if constexpr (F::rank == 0) to[field] = value(L::template offset<F>);
+                else
+                    for (int c = 0; c < components<F, dim>; ++c) to[field][c] = value(L::template offset<F> + c);
+            });
+        }
+    }
+    template <class R>
+    static R record_in_double(auto const& p, std::size_t i)
+    {
+        R r;
+        for_each(R::fields, [&](auto f) { r[f] = p.at(f, i); });
+        return r;
+    }
     /// What the terms that store energy read of a pair, or keep.
     static constexpr auto read_for_energy()
     {
@@ -816,16 +894,7 @@ private:
         using Seen = typename detail::Kept<dim, double, Set<kept<0, 0>()>>::Seen;
         Seen seen;
         seen.elapsed = due_;
-        for_each(kept<0, 0>(), [&]<class F>(F f) {
-            using L = Layout<dim, Set<kept<0, 0>()>>;
-            auto const& from = memory_[0][cell];
-            auto at = [&](int c) {
-                return double(from[PairMemory<T, L::count>::place(row, L::template offset<F> + c, width<V>) + lane]);
-            };
-            if constexpr (F::rank == 0) seen[f] = at(0);
-            else
-                for (int c = 0; c < components<F, dim>; ++c) seen[f][c] = at(c);
-        });
+        remembered<Set<kept<0, 0>()>>(seen, memory_[0], cell, row, lane);
         detail::each_in(terms_, [&]<class X>(X const& t) {
             if constexpr (requires { t.energy(ij); }) sum.add(part * t.energy(ij));
             else if constexpr (stores_energy<X>) {
