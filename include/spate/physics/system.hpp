@@ -357,11 +357,13 @@ public:
     void wall_sums(auto const& f) const
     {
         using Sums = Record<dim, double, Set<(Fields<>{} | M::wall_adds)>>;
+        auto terms = terms_;
+        carry_at_walls(terms, Carry{due_});
         for (std::size_t i = 0; i < mobile().size(); ++i) {
             Sums sums;
             clear(sums);
             Pushing<Sums> view{{mobile(), i}, sums};
-            detail::each_in(terms_, [&]<class X>(X const& t) {
+            detail::each_in(terms, [&]<class X>(X const& t) {
                 if constexpr (requires { X::pushes; }) t(view);
             });
             f(i, sums);
@@ -547,6 +549,14 @@ private:
         });
         return total.value();
     }
+    /// Tells terms that keep something of contacts with walls what a sweep does with it.
+    static void carry_at_walls(typename M::Terms& terms, Carry const& carry)
+    {
+        auto one = [&](auto& t) {
+            if constexpr (requires { t.carry(0.0, true, 1.0); }) t.carry(carry.elapsed, carry.keep, carry.reach);
+        };
+        std::apply([&](auto&... t) { (one(t), ...); }, terms);
+    }
     template <class X>
     [[nodiscard]] X radius_at(std::size_t i) const
     {
@@ -563,6 +573,7 @@ private:
     /// The same, with sums of its own to add to.
     template <class Sums>
     struct Pushing {
+        static constexpr bool only_shown = true;
         AsDouble particle;
         Sums& sums;
         template <Field F>
@@ -590,6 +601,13 @@ private:
         Mask m = 0;
         for (int t = 0; t < M::terms; ++t)
             if (((terms >> t) & 1) != 0) m |= M::planner.term[std::size_t(t)].adds;
+        return m;
+    }
+    static constexpr Mask written(Mask terms)
+    {
+        Mask m = 0;
+        for (int t = 0; t < M::terms; ++t)
+            if (((terms >> t) & 1) != 0) m |= M::planner.term[std::size_t(t)].writes;
         return m;
     }
     static constexpr Mask read_of_target(Mask terms, int s)
@@ -747,11 +765,12 @@ private:
     template <int s, Mask terms, Mask allowed>
     void sweep()
     {
+        if constexpr (s == 0 && (allowed & ~Mask(3)) != 0) carry_at_walls(terms_, carry_.value_or(Carry{due_}));
         constexpr Mask from_0 = (allowed & 1) != 0 ? reading(terms, s, 0) : 0;
         constexpr Mask from_1 = species_count == 2 && (allowed & 2) != 0 ? reading(terms, s, 1) : 0;
         auto run_with = [&](auto const&... source) {
             auto& x = species<s>();
-            using Sums = decltype(M::template fields<added(terms)>());
+            using Sums = decltype(M::template fields<added(terms) | written(terms)>());
             using Target = decltype(M::template fields<read_of_target(terms, s)>());
             constexpr Mask itself = (allowed >> s) & 1 ? terms : Mask(0);
             backend_.for_each(x.bins.cells(), [&](std::size_t cell) {
