@@ -500,35 +500,41 @@ private:
     static constexpr bool has_pair_energy = []<class... X>(std::tuple<X...> const*) {
         return (false || ... || requires { X::stores_energy; });
     }(static_cast<typename M::Terms const*>(nullptr));
-    /// Of the targets in a cell: what is out of range is passed over.
+    /// Of the targets in a cell. Both copies of a pair store the same: one is counted, but for images.
     [[nodiscard]] ExactSum pair_energy_of(std::size_t cell) const
     {
         auto const& p = mobile();
         auto const& bins = species<0>().bins;
         auto const& images = bins.images();
         auto const& lists = this->template lists<0, 0>().of_cell(cell);
+        auto const& x = p.column(position);
         constexpr auto W = std::size_t(width<V>);
         constexpr auto stride = std::uint32_t(Layout<dim, Set<M::template record<0>()>>::stride);
         const std::size_t n = p.size(), first = std::size_t(bins.begin(cell));
         const auto ui = p.template uniforms<double>();
-        const double range2 = physics_.interaction.range() * physics_.interaction.range();
+        const double most2 = physics_.interaction.range() * physics_.interaction.range() * (1 + 1e-6);
         ExactSum sum;
+        auto add = [&](std::size_t i, std::size_t j) {
+            const std::size_t of = j < n ? j : std::size_t(images.of[j - n - 1]);
+            auto ri = double_record(p, i), rj = double_record(p, of);
+            if (j > n) rj[position] += shift_of(images.code[j - n - 1], grid_);
+            const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, ui, rj, ui);
+            detail::each_in(terms_, [&](auto const& t) {
+                if constexpr (requires { t.energy(ij); }) sum.add((j < n ? 1 : 0.5) * t.energy(ij));
+            });
+        };
         for (std::size_t block = 0; block + 1 < lists.begin.size(); ++block)
             for (auto row = std::size_t(lists.begin[block]); row < std::size_t(lists.begin[block + 1]); ++row)
                 for (std::size_t lane = 0; lane < W; ++lane) {
                     const std::size_t j = std::uint32_t(lists.index[row * W + lane]) / stride;
-                    if (j == n) continue;
                     const std::size_t i = first + std::size_t(lists.target[block * W + lane]);
-                    const std::size_t of = j < n ? j : std::size_t(images.of[j - n - 1]);
-                    Vec<dim, double> x = p.at(position, i) - p.at(position, of);
-                    if (j > n) x -= shift_of(images.code[j - n - 1], grid_);
-                    if (x.squaredNorm() > range2 * (1 + 1e-6)) continue;
-                    auto ri = double_record(p, i), rj = double_record(p, of);
-                    if (j > n) rj[position] += shift_of(images.code[j - n - 1], grid_);
-                    const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, ui, rj, ui);
-                    detail::each_in(terms_, [&](auto const& t) {
-                        if constexpr (requires { t.energy(ij); }) sum.add(0.5 * t.energy(ij));
-                    });
+                    if (j <= i || j == n) continue;
+                    double d2 = 0;
+                    for (std::size_t c = 0; j < n && c < std::size_t(dim); ++c) {
+                        const double d = double(x[c][i]) - double(x[c][j]);
+                        d2 += d * d;
+                    }
+                    if (d2 < most2) add(i, j);
                 }
         return sum;
     }
@@ -725,6 +731,11 @@ private:
     {
         for (std::size_t i = first; i < last; ++i) to[i * stride] = from[i];
     }
+    /// Both components of a record of two: whole registers of them, interleaved.
+    [[gnu::noinline]] static void pack_two(T const* x, T const* y, T* to, std::size_t first, std::size_t last)
+    {
+        for (std::size_t i = first; i < last; ++i) to[2 * i] = x[i], to[2 * i + 1] = y[i];
+    }
     /// Copies fields of a species into its records; then the sentinel and the images.
     template <int s, Mask copied>
     void pack()
@@ -734,12 +745,18 @@ private:
         auto const& images = x.bins.images();
         const std::size_t n = x.particles.size(), records = n + 1 + images.of.size();
         constexpr auto stride = std::size_t(L::stride);
+        constexpr bool one_vector = std::same_as<decltype(M::template fields<copied>()), Fields<Position>> && dim == 2;
         if (x.packed.data.size() != records * stride) x.packed.data.assign(records * stride, T(1));
         T* const data = x.packed.data.data();
         stretches<s>([&](std::size_t first, std::size_t end) {
             constexpr std::size_t in_cache = 256; // records that stay in the first-level cache over all their fields
             for (std::size_t last; first < end; first = last) {
                 last = std::min(end, first + in_cache);
+                if constexpr (stride == 2 && one_vector) {
+                    auto const& column = x.particles.column(position);
+                    pack_two(column[0].data(), column[1].data(), data, first, last);
+                    continue;
+                }
                 for_each(M::template fields<copied>(), [&]<class F>(F f) {
                     for (int c = 0; c < components<F, dim>; ++c) {
                         T const* from = x.particles.column(f)[std::size_t(c)].data();
