@@ -71,7 +71,7 @@ private:
         auto const& x = s_.template species<q>();
         using P = std::remove_cvref_t<decltype(x.particles)>;
         using R = std::remove_cvref_t<decltype(x.packed)>;
-        return Source<terms, Fields<>, P, R>{x.particles, x.packed, s_.template lists<s, q>(), s == q, nullptr};
+        return Source<terms, Fields<>, P, R>{x.particles, x.packed, s_.template lists<s, q>(), s == q, nullptr, {}};
     }
     template <int s, Mask terms>
     void cells(auto const&... source)

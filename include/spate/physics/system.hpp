@@ -481,11 +481,13 @@ public:
     void wall_sums(auto const& f) const
     {
         using Sums = Record<dim, double, Set<(Fields<>{} | M::wall_adds)>>;
+        auto terms = terms_;
+        carry_at_walls(terms, Carry{due_});
         for (std::size_t i = 0; i < mobile().size(); ++i) {
             Sums sums;
             clear(sums);
             Pushing<Sums> view{{mobile(), i}, sums};
-            detail::each_in(terms_, [&]<class X>(X const& t) {
+            detail::each_in(terms, [&]<class X>(X const& t) {
                 if constexpr (requires { X::pushes; }) t(view);
             });
             f(i, sums);
@@ -690,26 +692,32 @@ private:
     static constexpr bool has_pair_energy = []<class... X>(std::tuple<X...> const*) {
         return (false || ... || stores_energy<X>);
     }(static_cast<typename M::Terms const*>(nullptr));
-    /// Of the targets in a cell: what is out of range is passed over.
+    /// Of the targets in a cell. Both copies of a pair store the same: one is counted, but for images and others' particles.
     [[nodiscard]] ExactSum pair_energy_of(std::size_t cell, auto const& share) const
     {
         auto const& p = mobile();
         auto const& bins = species<0>().bins;
         auto const& lists = this->template lists<0, 0>().of_cell(cell);
+        auto const& x = p.column(position);
         constexpr auto W = std::size_t(width<V>);
         constexpr auto stride = std::uint32_t(Layout<dim, Set<M::template record<0>()>>::stride);
         const std::size_t n = p.size(), first = std::size_t(bins.begin(cell));
-        const auto ui = p.template uniforms<double>();
-        const double range2 = physics_.interaction.range() * physics_.interaction.range();
+        const double most2 = physics_.interaction.range() * physics_.interaction.range() * (1 + 1e-6);
         ExactSum sum;
         for (std::size_t block = 0; block + 1 < lists.begin.size(); ++block)
             for (auto row = std::size_t(lists.begin[block]); row < std::size_t(lists.begin[block + 1]); ++row)
                 for (std::size_t lane = 0; lane < W; ++lane) {
                     const std::size_t j = std::uint32_t(lists.index[row * W + lane]) / stride;
-                    if (j == n) continue;
                     const std::size_t i = first + std::size_t(lists.target[block * W + lane]);
-                    if (j < n && (p.at(position, i) - p.at(position, j)).squaredNorm() > range2 * (1 + 1e-6)) continue;
-                    const double part = share(i, particle_of(j));
+                    if (j <= i || j == n) continue;
+                    double d2 = 0;
+                    for (std::size_t c = 0; j < n && c < std::size_t(dim); ++c) {
+                        const double d = double(x[c][i]) - double(x[c][j]);
+                        d2 += d * d;
+                    }
+                    if (!(d2 < most2)) continue;
+                    const std::size_t of = particle_of(j);
+                    const double part = share(i, of) + (j < n ? share(j, i) : 0);
                     if (part != 0)
                         add_pair_energy(sum, part, cell, row, lane, double_record(p, i), double_record_of(j));
                 }
@@ -772,6 +780,14 @@ private:
         });
         return r;
     }
+    /// Tells terms that keep something of contacts with walls what a sweep does with it.
+    static void carry_at_walls(typename M::Terms& terms, Carry const& carry)
+    {
+        auto one = [&](auto& t) {
+            if constexpr (requires { t.carry(0.0, true, 1.0); }) t.carry(carry.elapsed, carry.keep, carry.reach);
+        };
+        std::apply([&](auto&... t) { (one(t), ...); }, terms);
+    }
     template <class X>
     [[nodiscard]] X radius_at(std::size_t i) const
     {
@@ -788,6 +804,7 @@ private:
     /// The same, with sums of its own to add to.
     template <class Sums>
     struct Pushing {
+        static constexpr bool only_shown = true;
         AsDouble particle;
         Sums& sums;
         template <Field F>
@@ -920,6 +937,13 @@ private:
             if (((terms >> t) & 1) != 0) m |= M::planner.term[std::size_t(t)].adds;
         return m;
     }
+    static constexpr Mask written(Mask terms)
+    {
+        Mask m = 0;
+        for (int t = 0; t < M::terms; ++t)
+            if (((terms >> t) & 1) != 0) m |= M::planner.term[std::size_t(t)].writes;
+        return m;
+    }
     static constexpr Mask read_of_target(Mask terms, int s)
     {
         Mask m = M::planner.interaction;
@@ -1035,6 +1059,11 @@ private:
     {
         for (std::size_t i = first; i < last; ++i) to[i * stride] = from[i];
     }
+    /// Both components of a record of two: whole registers of them, interleaved.
+    [[gnu::noinline]] static void pack_two(T const* x, T const* y, T* to, std::size_t first, std::size_t last)
+    {
+        for (std::size_t i = first; i < last; ++i) to[2 * i] = x[i], to[2 * i + 1] = y[i];
+    }
     /// Copies fields of a species into its records; then the sentinel and the images.
     template <int s, Mask copied>
     void pack()
@@ -1046,12 +1075,18 @@ private:
         std::size_t records = n + 1 + images.of.size();
         if constexpr (!alone) parts_.finish(s), records += parts_.foreign(s).records();
         constexpr auto stride = std::size_t(L::stride);
+        constexpr bool one_vector = std::same_as<decltype(M::template fields<copied>()), Fields<Position>> && dim == 2;
         if (x.packed.data.size() != records * stride) x.packed.data.assign(records * stride, T(1));
         T* const data = x.packed.data.data();
         stretches<s>([&](std::size_t first, std::size_t end) {
             constexpr std::size_t in_cache = 256; // records that stay in the first-level cache over all their fields
             for (std::size_t last; first < end; first = last) {
                 last = std::min(end, first + in_cache);
+                if constexpr (stride == 2 && one_vector) {
+                    auto const& column = x.particles.column(position);
+                    pack_two(column[0].data(), column[1].data(), data, first, last);
+                    continue;
+                }
                 for_each(M::template fields<copied>(), [&]<class F>(F f) {
                     for (int c = 0; c < components<F, dim>; ++c) {
                         T const* from = x.particles.column(f)[std::size_t(c)].data();
@@ -1122,11 +1157,12 @@ private:
     template <int s, Mask terms, Mask allowed>
     void sweep()
     {
+        if constexpr (s == 0 && (allowed & ~Mask(3)) != 0) carry_at_walls(terms_, carry_.value_or(Carry{due_}));
         constexpr Mask from_0 = (allowed & 1) != 0 ? reading(terms, s, 0) : 0;
         constexpr Mask from_1 = species_count == 2 && (allowed & 2) != 0 ? reading(terms, s, 1) : 0;
         auto run_with = [&](auto const&... source) {
             auto& x = species<s>();
-            using Sums = decltype(M::template fields<added(terms)>());
+            using Sums = decltype(M::template fields<added(terms) | written(terms)>());
             using Target = decltype(M::template fields<read_of_target(terms, s)>());
             constexpr Mask itself = (allowed >> s) & 1 ? terms : Mask(0);
             auto one = [&](std::size_t cell) {
