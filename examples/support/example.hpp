@@ -40,8 +40,7 @@ public:
         spate::io::History history(directory, options_.history_every, measure...);
         Pictures pictures(directory, name_, options_.picture_every);
         spate::require_non_negative("every", options_.every, "s");
-        spate::RunOptions how{
-            .until = options_.until, .steps = options_.steps, .cfl = options_.cfl, .dt = options_.dt};
+        spate::RunOptions how{.until = options_.until, .steps = options_.steps, .cfl = options_.cfl, .dt = options_.dt};
         scene.check(how);
         require_writable(directory);
         Snapshots snapshots(Series(directory, name_), options_.every);

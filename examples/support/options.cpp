@@ -39,9 +39,10 @@ CommandLine::CommandLine(std::string const& name, std::string const& about, Opti
               "[s]");
     with_unit(app.add_option("--picture-every", o.picture_every, "between two pictures; 0: the last state only"),
               "[s]");
-    app.add_option("--checkpoint-every", o.checkpoint_every,
-                   "between two checkpoints: steps, or a time by the clock with s, min or h, such as 600s; 0: only when "
-                   "the run is interrupted or stopped")
+    app.add_option(
+           "--checkpoint-every", o.checkpoint_every,
+           "between two checkpoints: steps, or a time by the clock with s, min or h, such as 600s; 0: only when "
+           "the run is interrupted or stopped")
         ->type_name("N|T")
         ->capture_default_str();
     app.add_option("--restart", o.restart, "go on from this checkpoint of the same scene")->type_name("FILE");

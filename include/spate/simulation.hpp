@@ -393,16 +393,18 @@ public:
     {
         auto const& i = physics().interaction;
         auto const& n = system_.neighbours();
-        f("range", i.range()), f("length", i.length());
+        f("range of interaction", i.range()), f("length of interaction", i.length());
         if constexpr (has_equation_of_state<P>)
             f("rho0", equation_of_state(physics()).rho0), f("c0", equation_of_state(physics()).c0);
         const Stiffness s = stiffness_of_all();
-        f("viscosity", s.viscosity), f("contact_frequency", s.contact_frequency);
+        f("viscosity", s.viscosity), f("contact frequency", s.contact_frequency);
         for (int c = 0; c < dim; ++c) f(along_axis("gravity", c), g_[c]);
-        f("skin", n.skin), f("bin_edge", n.bin_edge()), f("trigger", n.closed_in());
-        f("bins_in_a_range", n.finer), f("skin_by_place", n.local);
+        f("skin", n.skin), f("bin edge over range", n.bin_edge()), f("trigger", n.closed_in());
+        f("bins in a range", n.finer), f("skin by place", n.local);
         if (const auto box = system_.boundary().template box<dim>())
-            for (int c = 0; c < dim; ++c) f(along_axis("box_lower", c), box->lo[c]), f(along_axis("box_upper", c), box->hi[c]);
+            for (int c = 0; c < dim; ++c)
+                f(along_axis("lower corner of the box", c), box->lo[c]),
+                    f(along_axis("upper corner of the box", c), box->hi[c]);
         system_.each_species([&](auto k) {
             auto const& p = system_.template species<k()>().particles;
             for_each(p.uniform, [&]<class F>(F field) {

@@ -73,8 +73,8 @@ inline void check_header(State const& state, std::span<std::byte const> file)
     std::memcpy(head.data(), file.data(), head.size());
     int version = -1;
     unsigned long long size = 0, sum = 0;
-    const int read =
-        std::sscanf(head.c_str(), "spate checkpoint\nversion %9d\nbytes %19llu\nchecksum %16llx", &version, &size, &sum);
+    const int read = std::sscanf(head.c_str(), "spate checkpoint\nversion %9d\nbytes %19llu\nchecksum %16llx", &version,
+                                 &size, &sum);
     if (read < 1) state.refuse("no checkpoint: it does not begin like one");
     if (version != checkpoint_version)
         state.refuse("of version " + std::to_string(version) + ", and this program reads version " +
@@ -101,11 +101,14 @@ inline std::vector<std::byte> bytes_of(std::filesystem::path const& file, State 
     for (auto const& [name, text] : state.texts)
         in_folder(name, [&, t = text](hid_t folder, std::string const& rest) { image.text(folder, rest, t); });
     for (auto const& [name, table] : state.tables)
-        in_folder(name, [&, columns = table.columns, v = std::cref(table.values)](hid_t folder, std::string const& rest) {
-            std::visit([&]<class T>(std::vector<T> const& values) {
-                image.dataset(folder, rest, std::span<T const>(values), columns);
-            }, v.get());
-        });
+        in_folder(name,
+                  [&, columns = table.columns, v = std::cref(table.values)](hid_t folder, std::string const& rest) {
+                      std::visit(
+                          [&]<class T>(std::vector<T> const& values) {
+                              image.dataset(folder, rest, std::span<T const>(values), columns);
+                          },
+                          v.get());
+                  });
     return image.bytes();
 }
 

@@ -65,11 +65,21 @@ using Stored = std::conditional_t<std::is_integral_v<T>, std::int64_t, T>;
 
 inline std::string of_species(int s, std::string_view what)
 {
-    return "species_" + std::to_string(s) + "/" + std::string(what);
+    std::string name = "species_";
+    name += std::to_string(s);
+    name += '/';
+    name += what;
+    return name;
 }
 inline std::string of_pair(int s, int q, std::string_view what)
 {
-    return "pairs_" + std::to_string(s) + "_" + std::to_string(q) + "/" + std::string(what);
+    std::string name = "pairs_";
+    name += std::to_string(s);
+    name += '_';
+    name += std::to_string(q);
+    name += '/';
+    name += what;
+    return name;
 }
 
 template <class P>
@@ -192,8 +202,8 @@ private:
     {
         const State mine = description(scene_);
         auto differs = [&](std::string const& what, std::string const& there, std::string const& here) {
-            state_.refuse("of another scene: its " + what.substr(what.find('/') + 1) + " is " + there + ", here it is " +
-                          here);
+            state_.refuse("of another scene: its " + what.substr(what.find('/') + 1) + " is " + there +
+                          ", here it is " + here);
         };
         for (auto const& [name, text] : mine.texts) {
             const auto found = state_.texts.find(name);
@@ -289,8 +299,7 @@ private:
         bool fine = true;
         for (std::size_t k = 0; fine && k < ids.size(); k += 2) {
             fine = std::binary_search(i.begin(), i.end(), ids[k]) && std::binary_search(j.begin(), j.end(), ids[k + 1]);
-            if (k > 0)
-                fine = fine && (ids[k - 2] < ids[k] || (ids[k - 2] == ids[k] && ids[k - 1] < ids[k + 1]));
+            if (k > 0) fine = fine && (ids[k - 2] < ids[k] || (ids[k - 2] == ids[k] && ids[k - 1] < ids[k + 1]));
         }
         for (const T value : state_.table<T>(of_pair(s, q, "value"), values, ids.size() / 2))
             fine = fine && std::isfinite(value);

@@ -134,7 +134,7 @@ private:
     detail::Every every_;
     std::filesystem::path last_;
     std::int64_t written_ = -1, even_written_ = -1; ///< step of the last one; of the last but that of the end
-    std::vector<double> even_times_;                ///< of all but that of the end, which a run that goes on writes over
+    std::vector<double> even_times_; ///< of all but that of the end, which a run that goes on writes over
 };
 
 } // namespace spate::io
