@@ -72,6 +72,8 @@ inline constexpr struct Velocity : VectorField     { static constexpr std::strin
 /// The velocity that positions follow where it is not the particle's own (XSPH, transport velocity, shifting).
 inline constexpr struct TransportVelocity : VectorField { static constexpr std::string_view name = "transport_velocity", unit = "m/s"; static constexpr bool derived = true; } transport_velocity{};
 inline constexpr struct Position : VectorField     { static constexpr std::string_view name = "position", unit = "m"; static constexpr Kind kind = Kind::drift; using rates = Fields<TransportVelocity, Velocity>; } position{};
+/// In records of pairs that compute in less than the state has: what the position has lost there.
+inline constexpr struct PositionTail : VectorField { static constexpr std::string_view name = "position_tail", unit = "m"; static constexpr bool derived = true; } position_tail{};
 /// Where a particle was when the neighbour lists were built: lists, bins and order are functions of it alone.
 inline constexpr struct BuildPosition : VectorField { static constexpr std::string_view name = "build_position", unit = "m"; } build_position{};
 // clang-format on

@@ -128,11 +128,14 @@ public:
             return v;
         }
         else {
-            auto const& a = column(g);
+            auto const& a = source_of(g);
             if constexpr (G::rank == 0) return load<V>(a[0].data() + i);
             else {
                 Value<G, Dim, V> v;
-                for (int c = 0; c < Dim; ++c) v[c] = load<V>(a[c].data() + i);
+                for (int c = 0; c < Dim; ++c) {
+                    if constexpr (is_tail<G>) v[c] = lanes_of<V, G>(a[c].data() + i, [](int l) { return l; });
+                    else v[c] = load<V>(a[c].data() + i);
+                }
                 return v;
             }
         }
@@ -160,10 +163,11 @@ public:
         Record<Dim, V, Fields<G...>> r;
         auto one = [&]<class X>(X g) __attribute__((always_inline))
         {
-            auto const& a = column(g);
-            if constexpr (X::rank == 0) r[g] = lanes_of<V>(a[0].data() + first, target);
+            auto const& a = source_of(g);
+            auto const at = [target](int l) __attribute__((always_inline)) { return target[l]; };
+            if constexpr (X::rank == 0) r[g] = lanes_of<V, X>(a[0].data() + first, at);
             else
-                for (int c = 0; c < Dim; ++c) r[g][c] = lanes_of<V>(a[c].data() + first, target);
+                for (int c = 0; c < Dim; ++c) r[g][c] = lanes_of<V, X>(a[c].data() + first, at);
         };
         (one(G{}), ...);
         return r;
@@ -175,9 +179,9 @@ public:
     {
         auto one = [&](T * a, V const& x) __attribute__((always_inline))
         {
-            alignas(64) T lane[std::size_t(width<V>)];
+            alignas(64) scalar_t<V> lane[std::size_t(width<V>)];
             store(lane, x);
-            for (int l = 0; l < lanes; ++l) a[target[l]] = lane[l];
+            for (int l = 0; l < lanes; ++l) a[target[l]] = T(lane[l]);
         };
         auto& a = column(g);
         if constexpr (G::rank == 0) one(a[0].data() + first, v);
@@ -235,12 +239,30 @@ public:
         return b;
     }
 
-private:
-    template <class V>
-    [[gnu::always_inline]] static V lanes_of(T const* a, std::int32_t const* target)
+    /// What a record of S holds of a stored value; position_tail is what S loses of the position.
+    template <class S, class G>
+    [[gnu::always_inline]] static S rounded(T x)
     {
-        alignas(64) T lane[std::size_t(width<V>)];
-        for (int l = 0; l < width<V>; ++l) lane[l] = a[target[l]];
+        if constexpr (is_tail<G>) return S(x - T(S(x)));
+        else return S(x);
+    }
+    /// The columns from which a record takes a field.
+    template <class G>
+    [[gnu::always_inline]] auto const& source_of(G g) const
+    {
+        if constexpr (is_tail<G>) return column(position);
+        else return column(g);
+    }
+
+private:
+    template <class G>
+    static constexpr bool is_tail = std::same_as<G, PositionTail>;
+    /// Elements at(0), at(1), ... of a column.
+    template <class V, class G>
+    [[gnu::always_inline]] static V lanes_of(T const* a, auto const& at)
+    {
+        alignas(64) scalar_t<V> lane[std::size_t(width<V>)];
+        for (int l = 0; l < width<V>; ++l) lane[l] = rounded<scalar_t<V>, G>(a[at(l)]);
         return load<V>(lane);
     }
     template <class G>

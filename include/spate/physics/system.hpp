@@ -22,6 +22,9 @@ public:
     using M = Model<P, B>;
     using T = typename Precision::real;
     using V = typename Precision::value;
+    using PairV = pair_value<Precision>;
+    using PairT = scalar_t<PairV>;
+    static constexpr bool mixed = !std::same_as<PairT, T>;
     static constexpr int dim = M::dim;
     static constexpr int species_count = M::species;
     static constexpr std::size_t task = 2048; ///< particles in a task of a pass; a multiple of every pack
@@ -30,13 +33,19 @@ public:
     static constexpr bool any_pairs =
         M::planner.meet(0, 0) || (species_count == 2 && (M::planner.meet(0, 1) || M::planner.meet(1, 0)));
 
+    /// A record in pairs that compute in less than the state has holds positions in two parts.
+    static constexpr auto in_pairs(auto set)
+    {
+        if constexpr (mixed) return set | Fields{position_tail};
+        else return set;
+    }
     template <int s>
     using ParticlesOf = Particles<dim, T, Set<M::template stored<s>()>, Set<M::template uniform<s>()>>;
     template <int s>
     struct Species {
         ParticlesOf<s> particles;
         Binning<dim> bins;
-        Packed<dim, T, Set<M::template record<s>()>> packed;
+        Packed<dim, PairT, Set<in_pairs(M::template record<s>())>> packed;
         Particles<dim, T, Set<M::template evolving<s>()>, Fields<>> start; ///< of the step, for integrators that save
     };
 
@@ -109,7 +118,7 @@ public:
         each_memory([&](auto s, auto q, auto& aside, auto& memory) {
             if (have_lists_)
                 aside.take(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
-                           species<q()>().particles, species<q()>().bins, width<V>);
+                           species<q()>().particles, species<q()>().bins, width<PairV>);
         });
         each_species([&](auto s) {
             auto& x = species<s()>();
@@ -125,7 +134,7 @@ public:
         each_species([&](auto s) {
             auto build = [&](auto... sources) {
                 const std::array<typename Lists<dim>::template From<T>, sizeof...(sources)> from{sources...};
-                Lists<dim>::build(places<s()>(), species<s()>().bins, grid_, width<V>, neighbours_.window, range,
+                Lists<dim>::build(places<s()>(), species<s()>().bins, grid_, width<PairV>, neighbours_.window, range,
                                   skins_.of(s()), beyond, backend_, from);
             };
             constexpr bool meets_0 = M::planner.meet(s(), 0), meets_1 = species_count == 2 && M::planner.meet(s(), 1);
@@ -135,7 +144,7 @@ public:
         });
         each_memory([&](auto s, auto q, auto& aside, auto& memory) {
             aside.give(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
-                       species<q()>().particles, species<q()>().bins, width<V>);
+                       species<q()>().particles, species<q()>().bins, width<PairV>);
         });
         have_lists_ = true;
         ++rebuilds_;
@@ -323,12 +332,13 @@ public:
                     const auto j = this->template lists<0, 0>().number(lists.index[slot]);
                     if (j == n) continue;
                     std::size_t block = 0;
-                    const std::size_t row = slot / std::size_t(width<V>);
+                    const std::size_t row = slot / std::size_t(width<PairV>);
                     block = std::size_t(std::upper_bound(lists.begin.begin(), lists.begin.end(), std::int32_t(row)) -
                                         lists.begin.begin()) -
                             1;
                     const std::size_t i =
-                        first + std::size_t(lists.target[block * std::size_t(width<V>) + slot % std::size_t(width<V>)]);
+                        first +
+                        std::size_t(lists.target[block * std::size_t(width<PairV>) + slot % std::size_t(width<PairV>)]);
                     auto ri = double_record(p, i), rj = double_record(p, j < n ? j : std::size_t(images.of[j - n - 1]));
                     if (j > n) rj[position] += shift_of(images.code[j - n - 1], grid_);
                     const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, ui, rj, ui);
@@ -347,7 +357,7 @@ public:
         std::size_t b = 0;
         each_species([&](auto s) {
             auto const& x = species<s()>();
-            b += x.particles.bytes() + x.start.bytes() + x.bins.bytes() + x.packed.data.capacity() * sizeof(T);
+            b += x.particles.bytes() + x.start.bytes() + x.bins.bytes() + x.packed.data.capacity() * sizeof(PairT);
         });
         for (auto const& l : lists_) b += l.bytes();
         b += skins_.bytes();
@@ -379,7 +389,7 @@ public:
                     PairMemory<T, kept_values<s(), q()>> now;
                     now.take(lists<s(), q()>(), memory_[std::size_t(s() * species_count + q())],
                              species<s()>().particles, species<s()>().bins, species<q()>().particles,
-                             species<q()>().bins, width<V>);
+                             species<q()>().bins, width<PairV>);
                     for (auto const& pair : now.pairs()) {
                         std::uint64_t h =
                             mix(mix(mix(std::uint64_t(s() * species_count + q()) + 17) + pair.i) + pair.j);
@@ -568,10 +578,18 @@ private:
         (one(std::integral_constant<std::size_t, t>{}), ...);
     }
     /// Not inlined: compiled once, not for each component of each field.
-    template <std::size_t stride>
-    [[gnu::noinline]] static void pack_column(T const* from, T* to, std::size_t first, std::size_t last)
+    template <std::size_t stride, class F>
+    [[gnu::noinline]] static void pack_column(T const* from, PairT* to, std::size_t first, std::size_t last)
     {
-        for (std::size_t i = first; i < last; ++i) to[i * stride] = from[i];
+        for (std::size_t i = first; i < last; ++i) to[i * stride] = ParticlesOf<0>::template rounded<PairT, F>(from[i]);
+    }
+    /// Where positions are copied, so are their tails.
+    template <Mask copied>
+    static constexpr auto with_tail()
+    {
+        constexpr auto set = M::template fields<copied>();
+        if constexpr (decltype(set)::template contains<Position>) return in_pairs(set);
+        else return set;
     }
     /// Copies fields of a species into its records; then the sentinel and the images.
     template <int s, Mask copied>
@@ -582,16 +600,17 @@ private:
         auto const& images = x.bins.images();
         const std::size_t n = x.particles.size(), records = n + 1 + images.of.size();
         constexpr auto stride = std::size_t(L::stride);
-        if (x.packed.data.size() != records * stride) x.packed.data.assign(records * stride, T(1));
-        T* const data = x.packed.data.data();
+        if (x.packed.data.size() != records * stride) x.packed.data.assign(records * stride, PairT(1));
+        PairT* const data = x.packed.data.data();
         stretches<s>([&](std::size_t first, std::size_t end) {
             constexpr std::size_t in_cache = 256; // records that stay in the first-level cache over all their fields
             for (std::size_t last; first < end; first = last) {
                 last = std::min(end, first + in_cache);
-                for_each(M::template fields<copied>(), [&]<class F>(F f) {
+                for_each(Set<with_tail<copied>()>{}, [&]<class F>(F f) {
                     for (int c = 0; c < components<F, dim>; ++c) {
-                        T const* from = x.particles.column(f)[std::size_t(c)].data();
-                        pack_column<stride>(from, data + std::size_t(L::template offset<F> + c), first, last);
+                        T const* from = x.particles.source_of(f)[std::size_t(c)].data();
+                        using Kind = std::conditional_t<std::same_as<F, PositionTail>, F, Position>;
+                        pack_column<stride, Kind>(from, data + std::size_t(L::template offset<F> + c), first, last);
                     }
                 });
             }
@@ -603,10 +622,19 @@ private:
         if (images.of.empty()) return;
         backend_.for_each((images.of.size() + task - 1) / task, [&](std::size_t k) {
             for (std::size_t g = k * task, end = std::min(images.of.size(), (k + 1) * task); g < end; ++g) {
-                T* const to = data + (n + 1 + g) * stride;
+                PairT* const to = data + (n + 1 + g) * stride;
                 std::copy_n(data + std::size_t(images.of[g]) * stride, stride, to);
                 const Vec<dim, double> shift = shift_of(images.code[g], grid_);
-                for (int c = 0; c < dim; ++c) to[at + std::size_t(c)] += T(shift[c]);
+                for (int c = 0; c < dim; ++c) {
+                    if constexpr (mixed) {
+                        constexpr auto tail = std::size_t(L::template offset<PositionTail>);
+                        const auto i = std::size_t(images.of[g]);
+                        const T moved = x.particles.column(position)[std::size_t(c)][i] + T(shift[c]);
+                        to[at + std::size_t(c)] = PairT(moved),
+                                to[tail + std::size_t(c)] = PairT(moved - T(PairT(moved)));
+                    }
+                    else to[at + std::size_t(c)] += PairT(shift[c]);
+                }
             }
         });
     }
@@ -618,10 +646,11 @@ private:
         auto run_with = [&](auto const&... source) {
             auto& x = species<s>();
             using Sums = decltype(M::template fields<added(terms)>());
-            using Target = decltype(M::template fields<read_of_target(terms, s)>());
+            using Target = Set<in_pairs(M::template fields<read_of_target(terms, s)>())>;
             constexpr Mask itself = (allowed >> s) & 1 ? terms : Mask(0);
             backend_.for_each(x.bins.cells(), [&](std::size_t cell) {
-                sweep_cell<V, itself, Sums, Target>(physics_.interaction, terms_, x.particles, x.bins, cell, source...);
+                sweep_cell<PairV, itself, Sums, Target>(physics_.interaction, terms_, x.particles, x.bins, cell,
+                                                        source...);
             });
         };
         if constexpr (from_0 != 0 && from_1 != 0) run_with(source<s, 0, from_0>(), source<s, 1, from_1>());
@@ -663,7 +692,7 @@ private:
     {
         auto const& x = species<q>();
         return typename Lists<dim>::template From<T>{lists_[std::size_t(s * species_count + q)], places<q>(), x.bins,
-                                                     Layout<dim, Set<M::template record<q>()>>::stride, s == q};
+                                                     std::remove_cvref_t<decltype(x.packed)>::L::stride, s == q};
     }
     template <int s>
     auto places() const
@@ -673,6 +702,8 @@ private:
     template <int s, int q, Mask terms>
     auto source()
     {
+        static_assert(!mixed || kept_values<s, q> == 0,
+                      "spate: Mixed is for terms that keep nothing of a pair; take Double or Float");
         auto const& x = species<q>();
         return Source<terms, Set<kept<s, q>()>, ParticlesOf<q>, std::remove_cvref_t<decltype(x.packed)>>{
             x.particles, x.packed, lists<s, q>(), s == q, &memory_[std::size_t(s * species_count + q)]};
