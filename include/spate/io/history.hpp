@@ -146,6 +146,8 @@ private:
         for (auto* name : {"step", "t", "dt", "dt_criterion", "kinetic", "potential"}) add(name);
         add(has_density<Scene> ? "compressive" : "elastic");
         add(scene.driven() ? "dissipated_less_work" : "dissipated"); // the work of walls and forces is not known apart
+        if constexpr (Scene::writes_energy)
+            add("reinitialised"); // what re-initialisation gave: part of what is not dissipated
         for (auto const& name : detail::headings("momentum", scene.momentum())) add(name);
         if constexpr (has_density<Scene>) add("volume");
         for (auto const& name : detail::headings("gravity_impulse", scene.momentum())) add(name);
@@ -184,6 +186,7 @@ private:
         row.add(scene.dt());
         row.add(scene.criterion());
         for (double part : {e.kinetic, e.potential, e.internal, start_ - e.total()}) row.add(part);
+        if constexpr (Scene::writes_energy) row.add(scene.written_energy());
         row.add(scene.momentum());
         if constexpr (has_density<Scene>) row.add(scene.volume());
         row.add((scene.total_mass() * (scene.time() - since_)) * scene.gravity());
