@@ -287,13 +287,19 @@ public:
         move_contacts();
         integrator_.step(system_, dt_);
         if constexpr (Engine::reflects) reflect();
-        system_.template phase<When::after_step>(step_, [&] { make_lists_current(); });
+        after_step();
         time_ += dt_;
         ++step_;
         ++report_.steps;
         report_.cpu += double(std::clock() - cpu) / CLOCKS_PER_SEC;
         report_.wall += std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
     }
+    /// Whether a term sets densities, and with them energy that no force gives: re-initialisation.
+    static constexpr bool writes_energy = []<class... T>(std::tuple<T...> const*) {
+        return (false || ... || requires { T::writes_energy; });
+    }(static_cast<typename Engine::M::Terms const*>(nullptr));
+    /// The compressive energy that such terms have given to the fluid since the start [J].
+    [[nodiscard]] double written_energy() const { return written_energy_; }
     /// Asked before each step: true ends the run after the step in hand.
     void interrupt_when(std::function<bool()> f) { interrupted_ = std::move(f); }
     [[nodiscard]] bool interrupted() const { return system_.ranks().all(interrupted_(), agree::Or{}); }
@@ -380,7 +386,7 @@ public:
         f("mach_max", r.mach), f("density_change_max", r.density_change), f("energy_rise_max", r.energy_rise);
         f("energy_reference", r.energy_reference), f("kinetic_start", r.start.kinetic);
         f("potential_start", r.start.potential), f("internal_start", r.start.internal);
-        f("exchanged_moment", self.exchanged_.moment);
+        f("written_energy", self.written_energy_), f("exchanged_moment", self.exchanged_.moment);
         for (auto* a : {&self.exchanged_.entered, &self.exchanged_.left}) {
             const std::string side = a == &self.exchanged_.left ? "left_" : "entered_";
             f(side + "particles", a->particles), f(side + "mass", a->mass), f(side + "energy", a->energy);
@@ -812,6 +818,21 @@ private:
         }
         for (auto& warning : advice<I>(physics(), spacing, stiffness_, dt)) report_.warnings.push_back(warning);
     }
+    void after_step()
+    {
+        auto run = [&] { system_.template phase<When::after_step>(step_, [&] { make_lists_current(); }); };
+        if constexpr (writes_energy) {
+            bool due = false;
+            auto ask = [&](auto const& term) {
+                if constexpr (requires { term.writes_energy; }) due = due || step_ % term.every == 0;
+            };
+            std::apply([&](auto const&... term) { (ask(term), ...); }, system_.terms());
+            const double before = due ? energy().internal : 0;
+            run();
+            if (due) written_energy_ += energy().internal - before;
+        }
+        else run();
+    }
     /// Whether the lists may miss a pair at the positions of a step of dt.
     [[nodiscard]] bool stale(Extremes const& e) const
     {
@@ -913,7 +934,7 @@ private:
     Exchanged<dim> exchanged_;
     double came_at_start_ = 0; ///< energy that particles had brought when the watch began [J]
     std::function<bool()> interrupted_ = [] { return false; };
-    double time_ = 0, dt_ = 0, free_dt_ = 0, first_dt_ = 0, cfl_ = 0, fixed_dt_ = 0;
+    double time_ = 0, dt_ = 0, free_dt_ = 0, first_dt_ = 0, cfl_ = 0, fixed_dt_ = 0, written_energy_ = 0;
     std::string_view criterion_ = "none";
     std::int64_t step_ = 0;
     bool prepared_ = false, warned_ = false, stopped_ = false, resumed_ = false;

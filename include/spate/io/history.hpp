@@ -141,9 +141,9 @@ private:
     struct SoFar {
         double since = 0, at = 0;                    ///< times of the first and the last row [s]
         std::array<std::array<double, 2>, 3> wall{}; ///< by axis: force of the walls at the last row [N], impulse [N s]
-        double start = 0;                            ///< total energy of the first row, less what had come in before [J]
-        double moment = 0;                           ///< of mass that had entered before the first row [kg s]
-        std::int64_t written = -1;                   ///< step of the last row
+        double start = 0;          ///< total energy of the first row, less what had come in before [J]
+        double moment = 0;         ///< of mass that had entered before the first row [kg s]
+        std::int64_t written = -1; ///< step of the last row
     };
     /// The rows of this run up to the last one of which so_far_ knows, if they are there; else none.
     [[gnu::cold]] void keep_rows(std::string const& head) const
@@ -201,6 +201,8 @@ private:
         for (auto* name : {"step", "t", "dt", "dt_criterion", "kinetic", "potential"}) add(name);
         add(has_density<Scene> ? "compressive" : "elastic");
         add(scene.driven() ? "dissipated_less_work" : "dissipated"); // the work of walls and forces is not known apart
+        if constexpr (Scene::writes_energy)
+            add("reinitialised"); // what re-initialisation gave: part of what is not dissipated
         for (auto const& name : detail::headings("momentum", scene.momentum())) add(name);
         if constexpr (has_density<Scene>) add("volume");
         for (auto const& name : detail::headings("gravity_impulse", scene.momentum())) add(name);
@@ -244,6 +246,7 @@ private:
         row.add(scene.criterion());
         for (double part : {e.kinetic, e.potential, e.internal, so_far_.start - (e.total() - came.energy())})
             row.add(part);
+        if constexpr (Scene::writes_energy) row.add(scene.written_energy());
         row.add(scene.momentum());
         if constexpr (has_density<Scene>) row.add(scene.volume());
         const double changed = // 0 where the mass has always been the same

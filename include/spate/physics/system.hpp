@@ -27,6 +27,9 @@ public:
     using M = Model<P, B>;
     using T = typename Precision::real;
     using V = typename Precision::value;
+    using PairV = pair_value<Precision>;
+    using PairT = scalar_t<PairV>;
+    static constexpr bool mixed = !std::same_as<PairT, T>;
     static constexpr int dim = M::dim;
     static constexpr int species_count = M::species;
     static constexpr std::size_t task = 2048; ///< particles in a task of a pass; a multiple of every pack
@@ -38,20 +41,26 @@ public:
     static constexpr bool any_pairs =
         M::planner.meet(0, 0) || (species_count == 2 && (M::planner.meet(0, 1) || M::planner.meet(1, 0)));
 
+    /// A record in pairs that compute in less than the state has holds positions in two parts.
+    static constexpr auto in_pairs(auto set)
+    {
+        if constexpr (mixed) return set | Fields{position_tail};
+        else return set;
+    }
     template <int s>
     using ParticlesOf = Particles<dim, T, Set<M::template stored<s>()>, Set<M::template uniform<s>()>>;
     template <int s>
     struct Species {
         ParticlesOf<s> particles;
         Binning<dim> bins;
-        Packed<dim, T, Set<M::template record<s>()>> packed;
+        Packed<dim, PairT, Set<in_pairs(M::template record<s>())>> packed;
         Particles<dim, T, Set<M::template evolving<s>()>, Fields<>> start; ///< of the step, for integrators that save
     };
 
     /// Those who share the scene: the backend's ranks, or nobody.
     using Party = decltype(ranks_of(std::declval<Workers const&>()));
     static constexpr bool alone = Party::alone;
-    using Parts = std::conditional_t<alone, Undivided, Decomposition<dim, T, species_count, Party>>;
+    using Parts = std::conditional_t<alone, Undivided, Decomposition<dim, T, PairT, species_count, Party>>;
 
     /// \param saves  whether the integrator needs the start of the step
     System(P physics, B boundary, Workers backend, Neighbours neighbours, bool saves)
@@ -184,7 +193,7 @@ public:
         if (!have_lists_ || !lists_know_all()) return;
         each_memory([&](auto s, auto q, auto& aside, auto& memory) {
             aside.take(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
-                       species<q()>().particles, species<q()>().bins, width<V>, backend_, foreign<q()>());
+                       species<q()>().particles, species<q()>().bins, width<PairV>, backend_, foreign<q()>());
         });
         have_lists_ = false;
     }
@@ -278,7 +287,7 @@ public:
                     if (have_lists_)
                         now.take(lists<s(), q()>(), memory_[std::size_t(s() * species_count + q())],
                                  species<s()>().particles, species<s()>().bins, species<q()>().particles,
-                                 species<q()>().bins, width<V>, backend_, foreign<q()>());
+                                 species<q()>().bins, width<PairV>, backend_, foreign<q()>());
                     f(s, q, now.pairs());
                 }
             });
@@ -499,7 +508,7 @@ public:
         auto& p = mobile();
         std::atomic<bool> any = false, lost = false;
         stretches<0>([&](std::size_t first, std::size_t last) {
-            constexpr auto W = std::size_t(width<V>);
+            constexpr auto W = std::size_t(width<PairV>);
             for (std::size_t k = first; k < last; k += W) {
                 if (!boundary_.any_beyond(p.template load_at<V>(position, k), radius_at<V>(k))) continue;
                 for (std::size_t i = k; i < std::min(last, k + W); ++i) {
@@ -539,7 +548,7 @@ public:
         std::size_t b = 0;
         each_species([&](auto s) {
             auto const& x = species<s()>();
-            b += x.particles.bytes() + x.start.bytes() + x.bins.bytes() + x.packed.data.capacity() * sizeof(T);
+            b += x.particles.bytes() + x.start.bytes() + x.bins.bytes() + x.packed.data.capacity() * sizeof(PairT);
         });
         for (auto const& l : lists_) b += l.bytes();
         for (auto const& of_species : memory_)
@@ -593,7 +602,8 @@ public:
         auto now = std::get<std::size_t(s * species_count + q)>(aside_);
         if (have_lists_)
             now.take(lists<s, q>(), memory_[std::size_t(s * species_count + q)], species<s>().particles,
-                     species<s>().bins, species<q>().particles, species<q>().bins, width<V>, backend_, foreign<q>());
+                     species<s>().bins, species<q>().particles, species<q>().bins, width<PairV>, backend_,
+                     foreign<q>());
         return now.pairs();
     }
     /// Makes room for the particles that have been added since.
@@ -699,7 +709,7 @@ private:
         auto const& bins = species<0>().bins;
         auto const& lists = this->template lists<0, 0>().of_cell(cell);
         auto const& x = p.column(position);
-        constexpr auto W = std::size_t(width<V>);
+        constexpr auto W = std::size_t(width<PairV>);
         constexpr auto stride = std::uint32_t(Layout<dim, Set<M::template record<0>()>>::stride);
         const std::size_t n = p.size(), first = std::size_t(bins.begin(cell));
         const double most2 = physics_.interaction.range() * physics_.interaction.range() * (1 + 1e-6);
@@ -836,7 +846,7 @@ private:
         auto const& all = this->template lists<0, 0>();
         auto const& lists = all.of_cell(cell);
         const auto u = p.template uniforms<double>();
-        const auto first = std::size_t(species<0>().bins.begin(cell)), n = p.size(), W = std::size_t(width<V>);
+        const auto first = std::size_t(species<0>().bins.begin(cell)), n = p.size(), W = std::size_t(width<PairV>);
         for (std::size_t b = 0; b + 1 < lists.begin.size(); ++b)
             for (auto row = std::size_t(lists.begin[b]); row < std::size_t(lists.begin[b + 1]); ++row)
                 for (std::size_t lane = 0; lane < W; ++lane) {
@@ -865,7 +875,7 @@ private:
     {
         if constexpr (K::size > 0) {
             using L = Layout<dim, K>;
-            constexpr int W = width<V>;
+            constexpr int W = width<PairV>;
             const auto value = [&](int k) {
                 return double(memory[cell][PairMemory<T, L::count>::place(row, k, W) + lane]);
             };
@@ -1054,10 +1064,18 @@ private:
         (one(std::integral_constant<std::size_t, t>{}), ...);
     }
     /// Not inlined: compiled once, not for each component of each field.
-    template <std::size_t stride>
-    [[gnu::noinline]] static void pack_column(T const* from, T* to, std::size_t first, std::size_t last)
+    template <std::size_t stride, class F>
+    [[gnu::noinline]] static void pack_column(T const* from, PairT* to, std::size_t first, std::size_t last)
     {
-        for (std::size_t i = first; i < last; ++i) to[i * stride] = from[i];
+        for (std::size_t i = first; i < last; ++i) to[i * stride] = ParticlesOf<0>::template rounded<PairT, F>(from[i]);
+    }
+    /// Where positions are copied, so are their tails.
+    template <Mask copied>
+    static constexpr auto with_tail()
+    {
+        constexpr auto set = M::template fields<copied>();
+        if constexpr (decltype(set)::template contains<Position>) return in_pairs(set);
+        else return set;
     }
     /// Both components of a record of two: whole registers of them, interleaved.
     [[gnu::noinline]] static void pack_two(T const* x, T const* y, T* to, std::size_t first, std::size_t last)
@@ -1075,9 +1093,10 @@ private:
         std::size_t records = n + 1 + images.of.size();
         if constexpr (!alone) parts_.finish(s), records += parts_.foreign(s).records();
         constexpr auto stride = std::size_t(L::stride);
-        constexpr bool one_vector = std::same_as<decltype(M::template fields<copied>()), Fields<Position>> && dim == 2;
-        if (x.packed.data.size() != records * stride) x.packed.data.assign(records * stride, T(1));
-        T* const data = x.packed.data.data();
+        constexpr bool one_vector =
+            std::same_as<decltype(M::template fields<copied>()), Fields<Position>> && dim == 2 && !mixed;
+        if (x.packed.data.size() != records * stride) x.packed.data.assign(records * stride, PairT(1));
+        PairT* const data = x.packed.data.data();
         stretches<s>([&](std::size_t first, std::size_t end) {
             constexpr std::size_t in_cache = 256; // records that stay in the first-level cache over all their fields
             for (std::size_t last; first < end; first = last) {
@@ -1087,10 +1106,11 @@ private:
                     pack_two(column[0].data(), column[1].data(), data, first, last);
                     continue;
                 }
-                for_each(M::template fields<copied>(), [&]<class F>(F f) {
+                for_each(Set<with_tail<copied>()>{}, [&]<class F>(F f) {
                     for (int c = 0; c < components<F, dim>; ++c) {
-                        T const* from = x.particles.column(f)[std::size_t(c)].data();
-                        pack_column<stride>(from, data + std::size_t(L::template offset<F> + c), first, last);
+                        T const* from = x.particles.source_of(f)[std::size_t(c)].data();
+                        using Kind = std::conditional_t<std::same_as<F, PositionTail>, F, Position>;
+                        pack_column<stride, Kind>(from, data + std::size_t(L::template offset<F> + c), first, last);
                     }
                 });
             }
@@ -1103,12 +1123,26 @@ private:
         if (images.of.empty()) return;
         backend_.for_each((images.of.size() + task - 1) / task, [&](std::size_t k) {
             for (std::size_t g = k * task, end = std::min(images.of.size(), (k + 1) * task); g < end; ++g) {
-                T* const to = data + (n + 1 + g) * stride;
+                PairT* const to = data + (n + 1 + g) * stride;
                 std::copy_n(data + std::size_t(images.of[g]) * stride, stride, to);
                 const Vec<dim, double> shift = shift_of(images.code[g], grid_);
-                for (int c = 0; c < dim; ++c) to[at + std::size_t(c)] += T(shift[c]);
+                move_record<L>(to, shift);
             }
         });
+    }
+    /// A record of an image lies elsewhere.
+    template <class L>
+    static void move_record(PairT* record, Vec<dim, double> const& shift)
+    {
+        PairT* const at = record + L::template offset<Position>;
+        for (int c = 0; c < dim; ++c) {
+            if constexpr (mixed) {
+                PairT* const tail = record + L::template offset<PositionTail>;
+                const T moved = T(at[c]) + T(tail[c]) + T(shift[c]);
+                at[c] = PairT(moved), tail[c] = PairT(moved - T(PairT(moved)));
+            }
+            else at[c] += PairT(shift[c]);
+        }
     }
     /// Sends fields of those records that others wait for, and takes theirs as they come.
     template <int s, Mask copied>
@@ -1116,33 +1150,33 @@ private:
     {
         using L = typename decltype(Species<s>::packed)::L;
         static constexpr auto offset = [] {
-            std::array<std::size_t, std::size_t(Layout<dim, Set<M::template fields<copied>()>>::count)> o{};
+            std::array<std::size_t, std::size_t(Layout<dim, Set<with_tail<copied>()>>::count)> o{};
             std::size_t k = 0;
-            for_each(M::template fields<copied>(), [&]<class F>(F) {
+            for_each(Set<with_tail<copied>()>{}, [&]<class F>(F) {
                 for (int c = 0; c < components<F, dim>; ++c) o[k++] = std::size_t(L::template offset<F> + c);
             });
             return o;
         }();
-        constexpr auto stride = std::size_t(L::stride), at = std::size_t(L::template offset<Position>);
-        T* const data = species<s>().packed.data.data();
+        constexpr auto stride = std::size_t(L::stride);
+        PairT* const data = species<s>().packed.data.data();
         auto const& foreign = parts_.foreign(s);
         parts_.send(
             s, offset.size(),
-            [&](std::int32_t i, T* to) {
-                T const* const from = data + std::size_t(i) * stride;
+            [&](std::int32_t i, PairT* to) {
+                PairT const* const from = data + std::size_t(i) * stride;
                 for (std::size_t k = 0; k < offset.size(); ++k) to[k] = from[offset[k]];
             },
-            [this, data, &foreign](std::int32_t i, T const* from) {
-                T* const to = data + (std::size_t(foreign.first) + std::size_t(i)) * stride;
+            [this, data, &foreign](std::int32_t i, PairT const* from) {
+                PairT* const to = data + (std::size_t(foreign.first) + std::size_t(i)) * stride;
                 for (std::size_t k = 0; k < offset.size(); ++k) to[offset[k]] = from[k];
                 auto const& images = foreign.bins->images();
                 if (images.of.empty()) return;
                 for (auto g = images.first[std::size_t(i)]; g < images.first[std::size_t(i) + 1]; ++g) {
-                    T* const image =
+                    PairT* const image =
                         data + (std::size_t(foreign.first) + foreign.places.size + std::size_t(g)) * stride;
                     std::copy_n(to, stride, image);
                     const Vec<dim, double> shift = shift_of(images.code[std::size_t(g)], grid_);
-                    for (int c = 0; c < dim; ++c) image[at + std::size_t(c)] += T(shift[c]);
+                    move_record<L>(image, shift);
                 }
             });
     }
@@ -1163,10 +1197,11 @@ private:
         auto run_with = [&](auto const&... source) {
             auto& x = species<s>();
             using Sums = decltype(M::template fields<added(terms) | written(terms)>());
-            using Target = decltype(M::template fields<read_of_target(terms, s)>());
+            using Target = Set<in_pairs(M::template fields<read_of_target(terms, s)>())>;
             constexpr Mask itself = (allowed >> s) & 1 ? terms : Mask(0);
             auto one = [&](std::size_t cell) {
-                sweep_cell<V, itself, Sums, Target>(physics_.interaction, terms_, x.particles, x.bins, cell, source...);
+                sweep_cell<PairV, itself, Sums, Target>(physics_.interaction, terms_, x.particles, x.bins, cell,
+                                                        source...);
             };
             if constexpr (alone) backend_.for_each(x.bins.cells(), one);
             else parts_.run(s, x.bins.cells(), (from_0 != 0 ? 1u : 0u) | (from_1 != 0 ? 2u : 0u), one, backend_);
@@ -1210,8 +1245,8 @@ private:
     {
         auto const& x = species<q>();
         return typename Lists<dim>::template From<T>{
-            lists_[std::size_t(s * species_count + q)],        places<q>(), x.bins,
-            Layout<dim, Set<M::template record<q>()>>::stride, s == q,      foreign<q>()};
+            lists_[std::size_t(s * species_count + q)],         places<q>(), x.bins,
+            std::remove_cvref_t<decltype(x.packed)>::L::stride, s == q,      foreign<q>()};
     }
     /// Where particles of a species were when lists were built.
     template <int s>
@@ -1234,6 +1269,8 @@ private:
     template <int s, int q, Mask terms>
     auto source()
     {
+        static_assert(!mixed || kept_values<s, q> == 0,
+                      "spate: Mixed is for terms that keep nothing of a pair; take Double or Float");
         auto const& x = species<q>();
         auto& memory = memory_[std::size_t(s * species_count + q)];
         return Source<terms, Set<kept<s, q>()>, ParticlesOf<q>, std::remove_cvref_t<decltype(x.packed)>>{
@@ -1294,7 +1331,7 @@ private:
         each_species([&](auto s) {
             auto build = [&](auto... sources) {
                 const std::array<typename Lists<dim>::template From<T>, sizeof...(sources)> from{sources...};
-                Lists<dim>::build(places<s()>(), species<s()>().bins, grid_, width<V>, neighbours_.window, range,
+                Lists<dim>::build(places<s()>(), species<s()>().bins, grid_, width<PairV>, neighbours_.window, range,
                                   skins_.of(s()), beyond, backend_, from);
             };
             constexpr bool meets_0 = M::planner.meet(s(), 0), meets_1 = species_count == 2 && M::planner.meet(s(), 1);
@@ -1304,7 +1341,7 @@ private:
         });
         each_memory([&](auto s, auto q, auto& aside, auto& memory) {
             aside.give(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
-                       species<q()>().particles, species<q()>().bins, width<V>, backend_, foreign<q()>());
+                       species<q()>().particles, species<q()>().bins, width<PairV>, backend_, foreign<q()>());
             aside.clear(); // it would be old news to lists to come
         });
         have_lists_ = true;
