@@ -75,8 +75,8 @@ public:
 
     [[gnu::cold]] Simulation(P physics, I integrator, B boundary, Workers backend = {}, Precision = {}, W watch = {},
                              Neighbours neighbours = neighbours_for<typename Engine::M::Interaction>())
-        : integrator_(integrator), watch_(watch),
-          system_(checked(physics, boundary, backend, neighbours, watch), boundary, backend, neighbours, I::saves),
+        : integrator_(integrator), watch_(watch), system_(checked(physics, boundary, backend, neighbours, watch),
+                                                          boundary, backend, neighbours, I::saves || W::on),
           g_(gravity_of(physics))
     {
         place_markers();
@@ -279,10 +279,15 @@ public:
             if constexpr (W::on) look_outside();
             rebuild();
             if (stale(e.unmoved())) rebuild(true);
+            if (stale(e.unmoved()) && o.dt <= 0) shorten(e.unmoved());
             if (stale(e.unmoved())) stop_outrun(e.unmoved());
         }
-        if constexpr (W::on)
+        if constexpr (W::on) {
+            if (step_ == 0) look_at_start();
+            look_at_way(e);
             if (step_ % watch_.energy_every == 0) look_at_energy();
+            keep_step();
+        }
         system_.template phase<When::before_step>(step_, [] {}); // the lists are those of this step
         move_contacts();
         integrator_.step(system_, dt_);
@@ -726,6 +731,15 @@ private:
             throw BadInput("position of particle " + std::to_string(p.id()[i]),
                            text(system_.boundary().template beyond<dim>(p.at(position, i))) + " m beyond a wall",
                            "inside the walls");
+        // Where places are rounded by a hundredth of the length that forces vary over, forces are noise.
+        const double rounding = std::numeric_limits<typename Engine::T>::epsilon() / 2,
+                     length = physics().interaction.length();
+        for (std::size_t k = 0; k < p.size(); ++k)
+            for (int c = 0; c < dim; ++c)
+                require(std::abs(p.at(position, k)[c]) * rounding <= 0.01 * length,
+                        "position of particle " + std::to_string(p.id()[k]), p.at(position, k)[c],
+                        "nearer to the origin than " + text(0.01 * length / rounding) +
+                            " m: there it is rounded by a hundredth of the particles' length");
         if constexpr (Set<Q::fields>::template contains<Radius> && requires { physics().interaction.largest; })
             for (std::size_t k = first; k < p.size(); ++k)
                 require(p.at(radius, k) <= physics().interaction.largest,
@@ -838,6 +852,15 @@ private:
     {
         return system_.stale(e, I::ahead_velocity * dt_, I::ahead_acceleration * dt_ * dt_);
     }
+    /// A step by the criteria is as short as lists need it: what closes in faster than sound would outrun them.
+    [[gnu::cold]] void shorten(Extremes const& e)
+    {
+        const double way = system_.closing(e, I::ahead_velocity * dt_, I::ahead_acceleration * dt_ * dt_);
+        const double most = system_.neighbours().closed_in() * physics().interaction.range();
+        if (!(way > most)) return;
+        free_dt_ = dt_ *= 0.99 * most / way, criterion_ = "lists"; // ways grow with dt at least in proportion
+        if constexpr (Engine::M::moves) move_markers(dt_);
+    }
     /// Lists that do not last one step would miss pairs in silence.
     [[noreturn, gnu::cold]] void stop_outrun(Extremes const& e) const
     {
@@ -864,8 +887,102 @@ private:
                     std::max({report_.density_change, e.most_density / eos.rho0 - 1, 1 - e.least_density / eos.rho0});
         }
         if constexpr (W::on) {
-            if (e.poison != 0) together(system_.ranks(), [&] { stop_if_not_finite(system_.mobile(), step_, time_); });
+            if (e.poison != 0)
+                together(system_.ranks(),
+                         [&] { stop_if_not_finite(system_.mobile(), step_, time_, [&] { return origin(); }); });
+            if constexpr (has_equation_of_state<P>)
+                if (!(e.least_density > 0) || e.most_density > most_density())
+                    together(system_.ranks(), [&] { stop_of_density(system_.mobile(), most_density(), step_, time_); });
         }
+    }
+    [[nodiscard]] double most_density() const
+    {
+        auto const& eos = equation_of_state(physics());
+        if constexpr (requires { eos.most_compression; }) return eos.most_compression * eos.rho0;
+        else return std::numeric_limits<double>::infinity();
+    }
+    /// Pairs that are too near; the smallest radius.
+    [[gnu::cold]] void look_at_start()
+    {
+        if constexpr (Engine::any_pairs && Engine::M::planner.meet(0, 0))
+            look_at_pairs(system_, watch_.overlap, step_, time_, report_.warnings);
+        if (stiffness_.contact_frequency <= 0) return;
+        auto const& p = system_.mobile();
+        for (std::size_t i = 0; i < p.size(); ++i) least_radius_ = std::min(least_radius_, radius_of(p, i));
+    }
+    /// Contacts begin within what two grains close in by in one step: a tenth of a radius is told, a radius is a stop.
+    void look_at_way(Extremes const& e)
+    {
+        if (stiffness_.contact_frequency <= 0) return;
+        const double way = std::min(e.speed * dt_, system_.closing(e.unmoved(), dt_, 0)), r = least_radius_;
+        if (way > 0.1 * r && !told_way_) warn_of_way(way);
+        if (way > r) stop_way(way);
+    }
+    [[gnu::cold]] void warn_of_way(double way)
+    {
+        told_way_ = true;
+        report_.warnings.push_back("grains move by " + text(way / least_radius_) +
+                                   " radii in a step at t = " + text(time_) +
+                                   " s: contacts that begin deeper than a tenth are not resolved; take a smaller dt");
+    }
+    [[noreturn, gnu::cold]] void stop_way(double way) const
+    {
+        auto const& p = system_.mobile();
+        const double most = way / dt_;
+        const std::size_t i = detail::first_by_id(
+            p, [&](std::size_t k) { return p.at(velocity, k).squaredNorm() >= most * most * (1 - 1e-12); });
+        StopFacts f = i < p.size() ? detail::facts_of(p, i) : StopFacts{};
+        f.step = step_, f.time = time_, f.quantity = "the way of a grain in one step [m]", f.value = way;
+        f.limit = least_radius_;
+        throw OverlapTooDeep(f, "a contact would begin deeper than a radius, or be missed: take a smaller dt");
+    }
+    /// Remembers a state from which the steps until now can be run again: that of the last rebuild, as lists go with it, or
+    /// a later one; integrators that save do so in each step.
+    void keep_step()
+    {
+        constexpr std::size_t most = 100;
+        if (I::saves || kept_rebuild_ != system_.rebuilds() || kept_dt_.size() >= most) {
+            if constexpr (!I::saves) system_.save();
+            kept_dt_.clear();
+            kept_rebuild_ = system_.rebuilds(), kept_step_ = step_, kept_time_ = time_;
+        }
+        kept_dt_.push_back(dt_);
+    }
+    /// Which term made a value that is not finite, found by running the steps since the kept state again; this state is put
+    /// back afterwards.
+    [[gnu::cold]] Origin origin()
+    {
+        if constexpr (!Engine::alone) return {}; // a replay would be of all ranks
+        if (kept_dt_.empty() || kept_rebuild_ != system_.rebuilds()) return {};
+        const double time = time_;
+        Engine failed = system_;
+        Origin found;
+        try {
+            found = origin_of_replay();
+        }
+        catch (Stop const&) {
+        } // one that came before
+        system_ = std::move(failed);
+        time_ = time;
+        return found;
+    }
+    [[gnu::cold]] Origin origin_of_replay()
+    {
+        if (!system_.restore()) return {};
+        time_ = kept_time_;
+        for (std::size_t k = 0; k < kept_dt_.size(); ++k) {
+            const std::int64_t step = kept_step_ + std::int64_t(k);
+            if constexpr (Engine::M::moves) move_markers(kept_dt_[k]);
+            if (k > 0 || !I::saves) system_.template phase<When::before_step>(step, [] {});
+            Replay<Engine> again(std::move(system_));
+            integrator_.step(again, kept_dt_[k]);
+            system_ = static_cast<Engine&&>(again);
+            if (again.found()) return again.origin();
+            if constexpr (Engine::reflects) reflect();
+            system_.template phase<When::after_step>(step, [] {});
+            time_ += kept_dt_[k];
+        }
+        return {};
     }
     [[gnu::cold]] void final_look()
     {
@@ -938,6 +1055,11 @@ private:
     std::string_view criterion_ = "none";
     std::int64_t step_ = 0;
     bool prepared_ = false, warned_ = false, stopped_ = false, resumed_ = false;
+    bool told_way_ = false;
+    double least_radius_ = std::numeric_limits<double>::infinity(); ///< [m]
+    std::vector<double> kept_dt_;                                   ///< of the steps since the kept state [s]
+    std::int64_t kept_step_ = 0, kept_rebuild_ = -1;
+    double kept_time_ = 0; ///< [s]
 };
 
 } // namespace spate

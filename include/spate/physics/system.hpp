@@ -62,7 +62,7 @@ public:
     static constexpr bool alone = Party::alone;
     using Parts = std::conditional_t<alone, Undivided, Decomposition<dim, T, PairT, species_count, Party>>;
 
-    /// \param saves  whether the integrator needs the start of the step
+    /// \param saves  whether anyone needs the start of a step: an integrator, or the watch
     System(P physics, B boundary, Workers backend, Neighbours neighbours, bool saves)
         : physics_(std::move(physics)), boundary_(std::move(boundary)), backend_(backend), neighbours_(neighbours),
           saves_(saves), grid_({}, Edges<dim>(Edge::open), 1, 1, 1), terms_(M::terms_of(physics_, boundary_)),
@@ -218,6 +218,7 @@ public:
     {
         if (!any_pairs || !have_lists_) return !have_lists_;
         const double range = physics_.interaction.range(), most = closing(e, t, t2);
+        if (!(e.moved <= wrap_after_)) return true; // together, perhaps, but far from where it is wrapped to
         if (most <= skins_.least() * range) return false;
         if (!neighbours_.local || !std::isfinite(most)) return true;
         return ranks().all(outrun(t, 2 * t2 * e.acceleration), agree::Or{});
@@ -409,6 +410,22 @@ public:
                     x.start.column(f)[c] = x.particles.column(f)[c];
             });
         });
+    }
+    /// The evolving fields as they were when save() was called; false if the particles are others now.
+    [[gnu::cold]] bool restore()
+    {
+        bool same = true;
+        each_species([&](auto s) {
+            auto& x = species<s()>();
+            same = same && x.start.size() == x.particles.size();
+            if (same)
+                for_each(M::template evolving<s()>(), [&](auto f) {
+                    for (std::size_t c = 0; c < std::size(x.particles.column(f)); ++c)
+                        x.particles.column(f)[c] = x.start.column(f)[c];
+                });
+        });
+        kick_rates_ = false;
+        return same;
     }
     /// y = y at the start of the step + dt * rate.
     template <class... F, class... G>
@@ -640,6 +657,9 @@ public:
     void use(Grid<dim> grid)
     {
         grid_ = std::move(grid);
+        wrap_after_ = std::numeric_limits<double>::infinity();
+        for (int c = 0; c < dim; ++c)
+            if (grid_.periodic(c)) wrap_after_ = std::min(wrap_after_, grid_.period(c));
         forget_lists();
     }
     /// The sums of chosen terms on the mobile particles over one source only, without touching the rates: the force of a
@@ -1603,6 +1623,7 @@ private:
     std::array<std::vector<Array<T>>, std::size_t(species_count* species_count)> memory_; ///< of pairs, by cell
     LocalSkins<dim, species_count> skins_;
     [[no_unique_address]] Parts parts_;
+    double wrap_after_ = std::numeric_limits<double>::infinity(); ///< way after which positions are wrapped anew [m]
     bool have_lists_ = false, sorted_markers_ = false, kick_rates_ = false, lost_ = false;
     std::optional<Carry> carry_; ///< of sweeps for rates; to others what is kept of pairs is only shown
     double due_ = 0, moved_ = 0; ///< time since what is kept of pairs was kept, since the step was saved [s]
