@@ -62,7 +62,7 @@ commit=$(git describe --always --dirty=+ 2> /dev/null) || commit=unknown
 if [[ $of_ladders == yes ]]; then
     tool=$name
     [[ $name != work_precision ]] || tool=run
-    exec /usr/bin/python3 "bench/work_precision/$tool.py" --executable "$executable" \
+    exec /usr/bin/python3 -B "bench/work_precision/$tool.py" --executable "$executable" \
         --context "{\"cpu\": \"${cpu:-unknown} ($(nproc) cores)\", \"compiler\": \"$compiler\", \"commit\": \"$commit\"}" "$@"
 fi
 log=build/bench/$name.log

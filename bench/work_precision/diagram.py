@@ -7,6 +7,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+import matplotlib.ticker
 
 import ladder
 
@@ -74,10 +75,18 @@ def panel(axes, rows, err_name, axis="time", look=look_of, name=None, cost=3.0, 
     lo, hi = axes.get_ylim()
     axes.set_ylim(lo, hi * 1.6 if crosses else hi)
     top = axes.get_ylim()[1]
+    named = set()
     for k, (x, colour, status) in enumerate(sorted(crosses)):
-        y = top * 0.93 ** (1 + k % 3)
+        y = top * (top / axes.get_ylim()[0]) ** (-0.035 * (k % 3))
         axes.plot([x], [y], marker="X", ms=9, mfc="none", color=colour, ls="none", clip_on=False)
-        axes.annotate(status, (x, y), (5, -3), textcoords="offset points", fontsize=7, color=colour)
+        if status not in named:  # once
+            axes.annotate(status, (x, y), (-7, 0), ha="right", va="center", textcoords="offset points", fontsize=7)
+        named.add(status)
+    for which in (axes.xaxis, axes.yaxis):
+        lo, hi = which.get_view_interval()
+        if hi < 30 * lo:  # less than one and a half decades: the digits between are wanted
+            which.set_minor_formatter(matplotlib.ticker.LogFormatter(minor_thresholds=(2, 0.7)))
+            plt.setp(which.get_minorticklabels(), fontsize=7)
     if axis == "time":
         left, right = axes.get_xlim()
         for at, text in ((1, "1 s"), (60, "1 min")):
@@ -118,7 +127,7 @@ def svg(figure, name):
     """The text of a figure to stand within a page: ids of its own, no prolog."""
     plt.rcParams["svg.hashsalt"] = name
     out = io.StringIO()
-    figure.savefig(out, format="svg", metadata={"Date": None})
+    figure.savefig(out, format="svg", metadata={"Date": None}, bbox_inches="tight")
     plt.close(figure)
     text = out.getvalue()
     return text[text.index("<svg") :]

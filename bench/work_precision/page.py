@@ -3,6 +3,7 @@
 import html
 import json
 import math
+import textwrap
 
 import diagram
 import ladder
@@ -18,6 +19,7 @@ def short(row):
 def grid(rows, columns, title, width=6.4, height=4.6):
     figure, axes = plt.subplots(rows, columns, figsize=(width * columns, height * rows), layout="constrained", squeeze=False)
     figure.suptitle(title, x=0.01, ha="left", fontsize=13, fontweight="bold")
+    figure.title_of_all = title
     return figure, axes
 
 
@@ -74,7 +76,7 @@ def best(rows, which, err_name, targets, seed=None):
         if reference:
             line.append(number(reference[1][0] / to[0]))
         lines.append(line)
-    return table(header, lines)
+    return Table(header, lines)
 
 
 def number(x, unit=""):
@@ -85,20 +87,181 @@ def percent(x):
     return "" if math.isnan(x) else f"{100 * x:.2g} %"
 
 
-def table(header, lines):
-    cell = lambda kind, values: "".join(f"<{kind}>{html.escape(str(v))}</{kind}>" for v in values)
-    body = "".join(f"<tr>{cell('td', line)}</tr>\n" for line in lines)
-    return f"<table><thead><tr>{cell('th', header)}</tr></thead><tbody>\n{body}</tbody></table>"
+class Table:
+    def __init__(self, header, lines):
+        self.header, self.lines = header, lines
+
+    def html(self):
+        cell = lambda kind, values: "".join(f"<{kind}>{html.escape(str(v))}</{kind}>" for v in values)
+        body = "".join(f"<tr>{cell('td', line)}</tr>\n" for line in self.lines)
+        return f"<table><thead><tr>{cell('th', self.header)}</tr></thead><tbody>\n{body}</tbody></table>"
+
+    def markdown(self):
+        row = lambda values: "| " + " | ".join(str(v) for v in values) + " |"
+        return "\n".join([row(self.header), "|" + "---|" * len(self.header), *(row(line) for line in self.lines)])
 
 
-FIGURES = {"W1": w1}
+class Note:
+    """A paragraph below a figure."""
 
-HOW = """<p>Each point is a run: right is more work, down is less error. A line is a <em>family</em>, one composition of kernel
+    def __init__(self, text):
+        self.text = " ".join(text.split())
+
+    def html(self):
+        return f"<p>{html.escape(self.text)}</p>"
+
+    def markdown(self):
+        return textwrap.fill(self.text, 128)
+
+
+def w2(rows):
+    main = [r for r in rows if r["ladder"] == "resolution"]
+    figure, axes = grid(1, 2, "W2. Poiseuille flow from rest at Re = 0.0125, t = 0.225 L^2/nu, 10 to 80 across")
+    wall_marker = {"adami+no_slip": "o", "extrapolated": "s", "by_continuity": "^"}
+    look = lambda r: diagram.look_of(r) | {"marker": wall_marker[r["formulation"]]}
+    named = lambda r: f"{r['kernel'].replace('_', ' ')} {r['h_dx']:g}, {r['formulation']}"
+    diagram.panel(axes[0, 0], main, "L2_u", look=look, name=named, cost=COST_CHANNEL, title="walls and kernels, over time")
+    diagram.panel(axes[0, 1], main, "L2_u", axis="updates", look=look, name=named, cost=COST_CHANNEL, title="over updates")
+    axes[0, 1].legend(loc="upper right", fontsize=7)
+    return figure, [best(rows, "resolution", "L2_u", (0.03, 0.01, 0.003))]
+
+
+COST_CHANNEL = 3  # the step is viscous, dx^2, and the channel 16 dx long below 40 across
+
+
+def w3(rows):
+    dt = [r for r in rows if r["ladder"] == "dt"]
+    figure, axes = grid(2, 2, "W3. Standing sound wave, 10 periods, cubic spline 1.3: against the lattice's own frequency")
+    integrator = {"forward_euler": "#762a83", "symplectic_euler": "#4d9221", "runge_kutta2": "#b2182b", "leapfrog": "#2166ac"}
+    look = lambda r: diagram.look_of(r) | {"color": integrator[r["integrator"]]}
+    named = lambda r: r["integrator"].replace("_", " ")
+    titles = {"omega": "frequency, C = 0.05 to 2 at 32 a wave", "amplitude": "amplitude a period", "wave": "the wave itself"}
+    for place, (err, title) in zip((axes[0, 0], axes[0, 1], axes[1, 0]), titles.items()):
+        diagram.panel(place, dt, err, look=look, name=named, cost=1, title=title)
+    axes[0, 0].legend(loc="best")
+    rest = [r for r in rows if r["ladder"] == "resolution"]
+    diagram.panel(axes[1, 1], rest, "wave", look=look, name=named, cost=2, title="the wave, 8 to 64 a wave at C = 0.25")
+    lines = []
+    for family, points in ladder.ladders(rows, ladder="dt", err_name="wave").items():
+        fine = [r for r in points if r["status"] == "OK" and r["cfl"] <= 0.2]
+        omega = [r for r in ladder.ladders(rows, ladder="dt", err_name="omega")[family] if r["cfl"] <= 0.2]
+        first = min((r["cfl"] for r in rows if r["family"] == family and (r["status"] != "OK" or r["err"] > 1)
+                     and r["ladder"] == "dt"), default=math.nan)  # fmt: skip
+        lines.append([family, number(ladder.slope([r["dt"] for r in fine], [r["err"] for r in fine])),
+                      number(ladder.slope([r["dt"] for r in omega], [r["err"] for r in omega])),
+                      "none to 2" if math.isnan(first) else f"{first:g}"])  # fmt: skip
+    head = ["family", "order in dt of the wave, C <= 0.2", "of the frequency", "first C that is stopped or off by more than the wave"]
+    return figure, [Table(head, lines)]
+
+
+def w5(rows):
+    main = [r for r in rows if r["ladder"] == "resolution"]
+    figure, axes = grid(2, 2, "W5. Dam break, column 1 : 2, front to T = 3.4 against Martin & Moyce (1952), H/dx = 20 to 80")
+    colours = {}
+    look = lambda r: diagram.look_of(r) | {"color": colours.setdefault(r["family"], f"C{len(colours)}")}
+    named = lambda r: f"{short(r)}, {r['formulation'].split('+')[0]}, {r['formulation'].split('+')[-1]}" + (
+        ", float" if r["precision"] == "float" else "")  # fmt: skip
+    diagram.panel(axes[0, 0], main, "front", look=look, name=named, cost=3, title="error of the front, over time")
+    diagram.panel(axes[0, 1], main, "front", axis="updates", look=look, name=named, cost=3, title="over updates")
+    axes[0, 1].legend(loc="best", fontsize=6.5)
+    diagram.panel(axes[1, 0], main, "density", look=look, name=named, cost=3, title="largest change of density")
+    dt = [r for r in rows if r["ladder"] == "dt"]
+    diagram.panel(axes[1, 1], dt, "front", name=short, cost=None, title="in dt, H/dx = 40: C = 0.1 to 1.2")
+    axes[1, 1].legend(loc="best")
+    note = Note("""The experiment is not exact: of the error of about 2.4 % at the finest level most is the first point of the
+    table (T = 0.41), of which all runs are short. A family that is below the others at a coarse level is there by luck; what the
+    diagram says is what the same front costs, and who is stopped.""")
+    return figure, [note, best(rows, "resolution", "front", (0.03, 0.025, 0.02))]
+
+
+def w6(rows):
+    figure, axes = grid(1, 2, "W6. Two discs head-on, 64 phases of the step: omega dt = 1.37 to 0.014")
+    colour = {"forward_euler": "#762a83", "symplectic_euler": "#4d9221", "runge_kutta2": "#b2182b", "leapfrog": "#2166ac"}
+    look = lambda r: diagram.look_of(r) | {"color": colour[r["integrator"]]}
+    named = lambda r: r["integrator"].replace("_", " ")
+    watched = [r for r in rows if r["ladder"] == "watched" and r["status"] != "OK"]
+    both = {"restitution": "rms of e - 1", "energy_a_contact": "mean change of energy a contact"}
+    for place, (err, title) in zip(axes[0], both.items()):
+        free = [r for r in rows if r["ladder"] == "dt" and r["err_name"] == err]
+        steps = {(r["family"], r["omega_dt"]): r for r in free}
+        stopped = [steps[r["family"], r["omega_dt"]] | {"status": r["status"]} for r in watched
+                   if (r["family"], r["omega_dt"]) in steps]  # fmt: skip
+        diagram.panel(place, free, err, axis="updates", look=look, name=named, cost=1, title=title)
+        top = place.get_ylim()[1]
+        for r in stopped:
+            place.plot([diagram.work(r, "updates")], [top], marker="X", ms=8, mfc="none", color=colour[r["integrator"]],
+                       ls="none", clip_on=False)  # fmt: skip
+    axes[0, 0].legend(loc="best")
+    note = Note("""Crosses: what the watch stops (EnergyRunaway, 5 % of the reference) at that step; the lines are measured with the
+    watch looking on. Numerics C.2 gives for forward Euler 38.7 times the energy a contact at omega dt = sqrt 2.""")
+    lines = []
+    for family, points in ladder.ladders(rows, ladder="dt", err_name="restitution").items():
+        z, e = [r["omega_dt"] for r in points], [r["err"] for r in points]
+        need = max((a for a, b in zip(z, e) if b <= 0.005), default=math.nan)
+        lines.append([family, number(ladder.slope(z[-4:], e[-4:])), number(need), number(math.pi / need) if need == need else ""])
+    return figure, [note, Table(["family", "order in dt", "largest omega dt for 0.5 %", "steps in a contact"], lines)]
+
+
+def w9(rows):
+    at = lambda which, err: [r for r in rows if r["ladder"] == which and r["err_name"] == err]
+    figure, axes = grid(2, 2, "W9. What a feature costs, and what lists cost", height=4.8)
+    pair = at("features", "rates_ns_pair")
+    base = {r["precision"]: r["err"] for r in pair if r["formulation"] == "base"}
+    pair.sort(key=lambda r: (r["formulation"] != "base", r["precision"], r["err"]))
+    labels = [r["formulation"] + (" (float)" if r["precision"] == "float" else "") for r in pair]
+    axes[0, 0].barh(range(len(pair)), [r["err"] for r in pair], color=["#b2b2b2" if "base" in t else "#4393c3" for t in labels])
+    axes[0, 0].set_yticks(range(len(pair)), labels, fontsize=8)
+    axes[0, 0].invert_yaxis()
+    if "double" in base:
+        axes[0, 0].axvline(base["double"], color=diagram.GREY, lw=0.8, ls="--")
+    axes[0, 0].set(xlabel="ns a directed pair, an evaluation of all rates (3D, cubic 1.3, RK2)", title="features")
+    step = {r["family"]: r["err"] for r in at("features", "step_ns_particle")}
+    rebuild = {r["family"]: r["err"] for r in at("features", "rebuild_ns_particle")}
+    lines = [[t, f"{r['err']:.2f}", f"{r['err'] - base.get(r['precision'], math.nan):+.2f}", f"{step[r['family']]:.0f}",
+              f"{rebuild[r['family']]:.0f}", f"{1e-3 * r['err']:.4f}"] for t, r in zip(labels, pair)]  # fmt: skip
+    head = ["feature", "ns a pair", "over the base", "ns a particle, whole step", "ns a particle, rebuild", "s per 1e6 pairs"]
+    tables = [Table(head, lines)]
+    sweeps = (("skin", axes[0, 1], "skin of the lists [ranges]"), ("cell", axes[1, 0], "edge of a cell [ranges]"))
+    for which, place, label in sweeps:
+        part = sorted(at(which, "L1_velocity"), key=lambda r: r[which])
+        x = [r[which] for r in part]
+        y = [1e9 * ladder.seconds(r) / (r["N"] * r["force_evals"]) for r in part]
+        place.plot(x, y, "o-", color="#2166ac", mfc="white")
+        slots = [1e9 * ladder.seconds(r) / r["pairs"] for r in part]
+        for a, b, s in zip(x, y, slots):
+            place.annotate(f"{s:.2f} ns a pair", (a, b), (4, 5), textcoords="offset points", fontsize=7, color=diagram.GREY)
+        place.set(xlabel=label, ylabel="ns a particle update", title=f"{which}: vortices 100 x 50, whole steps".replace("50", "100"))
+        place.set_ylim(bottom=0)
+        if which == "cell":
+            place.set_xscale("log", base=2)
+    both = {r["threads"]: r for r in at("threads", "L1_velocity")}
+    if both:
+        x = sorted(both)
+        y = [1e9 * both[t]["wall_s_min"] / (both[t]["N"] * both[t]["force_evals"]) for t in x]
+        axes[1, 1].bar([f"{t:.0f} thread{'s' if t > 1 else ''}" for t in x], y, color="#4393c3", width=0.5)
+        axes[1, 1].set(ylabel="ns a particle update, wall time, the least", title="threads: vortices 200 x 200")
+        for k, v in enumerate(y):
+            axes[1, 1].annotate(f"{v:.0f} ns", (k, v), (0, 3), textcoords="offset points", ha="center")
+    return figure, tables
+
+
+FIGURES = {"W1": w1, "W2": w2, "W3": w3, "W5": w5, "W6": w6, "W9": w9}
+
+HOW = """Each point is a run: right is more work, down is less error. A line is a <em>family</em>, one composition of kernel
 (with h/dx), formulation, integrator and precision, on a ladder of resolutions (markers grow with it) or of time steps. The
 lowest line at the error that you need is the cheapest family for it. The triangles show how an error of first and of second
 order in what is refined would fall. Shaded: least to most of the repeats. A hollow cross at the top is a run that the watch
 stopped, with its reason: stability is part of the diagram. Time is that of the step loop, without set-up and output; one
-thread on one core; the same machine, compiler and flags for all points, in random order.</p>"""
+thread on one core; the same machine, compiler and flags for all points, in random order."""
+INTRODUCTION = (
+    "# Error against work",
+    "",
+    "Written by `bash bench/run.sh work_precision --into docs/results/work_precision`; [index.html](index.html) is the same as one",
+    "page. What is measured, and by which rules: [bench/work_precision](../../../bench/work_precision/README.md).",
+    "",
+    textwrap.fill(HOW.replace("<em>", "*").replace("</em>", "*"), 128),
+    "",
+)
 STYLE = """body{font:15px/1.5 system-ui,sans-serif;max-width:1280px;margin:2em auto;padding:0 1em;color:#222}
 svg{width:100%;height:auto}table{border-collapse:collapse;font-size:13px;margin:1em 0}td,th{padding:2px 10px;text-align:right;
 border-bottom:1px solid #e4e4e4}td:first-child,th:first-child{text-align:left}footer,.remark{color:#666;font-size:13px}
@@ -122,8 +285,8 @@ def facts_of(path):
 
 
 def write(into):
-    """Draws every figure that has a table in the folder, and the page."""
-    parts = []
+    """Draws every figure that has a table in the folder; index.html, which needs nothing else, and README.md beside it."""
+    parts, lines = [], [*INTRODUCTION]
     for name, draw in FIGURES.items():
         path = into / f"{name.lower()}.csv"
         if not path.exists():
@@ -132,23 +295,27 @@ def write(into):
         if not rows:
             continue
         diagram.CLOCK = "1 thread" if not facts.get("busy", 1) > 1.05 else "CPU time of 1 thread"
-        figure, tables = draw(rows)
-        figure.text(0.005, -0.01, footer(facts), fontsize=8, color=diagram.GREY, va="top")
-        plt.rcParams["savefig.bbox"] = "tight"
+        figure, below = draw(rows)
+        title = figure.title_of_all
+        said = footer(facts)
+        figure.text(0.005, -0.01, said, fontsize=8, color=diagram.GREY, va="top")
         drawn = diagram.svg(figure, name)
         (into / f"{name.lower()}.svg").write_text('<?xml version="1.0" encoding="utf-8"?>\n' + drawn, encoding="utf-8")
-        skipped = "".join(f"<li>{html.escape(s)}</li>" for s in facts.get("skipped", []))
-        parts.append(
-            f'<section id="{name}">{drawn}\n' + "\n".join(tables)
-            + (f'<div class="remark">Not measured:<ul>{skipped}</ul></div>' if skipped else "")
-            + f'<p class="remark">{html.escape(footer(facts))}</p>'
-            + f"<details><summary>{name.lower()}.csv</summary><pre>{html.escape(path.read_text(encoding='utf-8'))}</pre></details>"
-            + "</section>"
-        )
+        below.append(Note("Not measured: " + "; ".join(facts["skipped"]) + ".") if facts.get("skipped") else
+                     Note("No point of the plan was left out."))  # fmt: skip
+        table = html.escape(path.read_text(encoding="utf-8"))
+        parts.append(f'<section id="{name}">{drawn}\n' + "\n".join(b.html() for b in below) +
+                     f'<p class="remark">{html.escape(said)}</p>'
+                     f"<details><summary>{name.lower()}.csv</summary><pre>{table}</pre></details></section>")  # fmt: skip
+        lines += [f"## {title}", "", f"![{title}]({name.lower()}.svg)", ""]
+        for b in below:
+            lines += [b.markdown(), ""]
+        lines += [f"{said}. Table: [{name.lower()}.csv]({name.lower()}.csv)", ""]
+    (into / "README.md").write_text("\n".join(lines), encoding="utf-8")
     out = into / "index.html"
     out.write_text(
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>Error against work</title>'
-        f"<style>{STYLE}</style></head><body><h1>Error against work</h1>{HOW}\n" + "\n".join(parts) + "</body></html>\n",
+        f"<style>{STYLE}</style></head><body><h1>Error against work</h1><p>{HOW}</p>\n" + "\n".join(parts) + "</body></html>\n",
         encoding="utf-8",
     )
     print(f"page: {out}")

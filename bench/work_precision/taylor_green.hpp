@@ -57,7 +57,9 @@ Outcome taylor_green(Setting const& s, double h_dx, auto const& fluid)
     const Shifting shifting{.mach = flow.U / c0, .cfl = 6 * courant};
     const Box<2> box{{0, 0}, {s.length, s.length}};
     auto make = [&] {
-        Simulation scene(fluid(h, c0, flow.nu, shifting), I{}, Periodic(box), Threads{s.threads, s.cell}, Precision{});
+        const auto physics = fluid(h, c0, flow.nu, shifting);
+        Simulation scene(physics, I{}, Periodic(box), Threads{s.threads, s.cell}, Precision{}, Watch{},
+                         lists_of(s, physics.interaction.neighbours));
         std::mt19937_64 dice(1);
         auto draw = [&] { return (double(dice() >> 11) * 0x1p-52 - 1) * s.jitter * dx; };
         scene.fill(box, dx, [&](auto& p, std::size_t i) {
@@ -72,6 +74,12 @@ Outcome taylor_green(Setting const& s, double h_dx, auto const& fluid)
                        [&](auto& scene) { return errors_of(flow, scene); });
 }
 
+template <class I, class Precision>
+void add_vortices(std::string const& kernel, double h_dx, std::string const& formulation, auto const& fluid)
+{
+    families().push_back({"taylor_green", kernel, h_dx, formulation, I::name, precision_name<Precision>(),
+                          [=](Setting const& s) { return taylor_green<I, Precision>(s, h_dx, fluid); }});
+}
 /// The parameters of tests/models/internal_flow.hpp with another kernel, integrator or precision.
 template <int sigma, class K, class I, class Precision>
 void add_shifted(std::string const& kernel, double h_dx)
@@ -80,9 +88,7 @@ void add_shifted(std::string const& kernel, double h_dx)
         return wcsph(K{.h = h}, LinearEos{.rho0 = 1, .c0 = c0}, Continuity<sigma>{}, MolteniColagrossi{.delta = 0.1},
                      PressureForce<sigma>{}, LaminarViscosity{.mu = nu, .eps = 0}, shifting);
     };
-    families().push_back({"taylor_green", kernel, h_dx, "sigma" + std::to_string(sigma) + "+diffusion+shifting",
-                          I::name, precision_name<Precision>(),
-                          [=](Setting const& s) { return taylor_green<I, Precision>(s, h_dx, fluid); }});
+    add_vortices<I, Precision>(kernel, h_dx, "sigma" + std::to_string(sigma) + "+diffusion+shifting", fluid);
 }
 
 } // namespace work_precision
