@@ -13,6 +13,7 @@ import ladder
 
 COLOUR = {"cubic_spline": "#b2182b", "quintic_spline": "#2166ac", "wendland_c2": "#4d9221", "wendland_c4": "#e08214"}
 MARKER = {"runge_kutta2": "s", "leapfrog": "o", "symplectic_euler": "^", "forward_euler": "v"}
+INTEGRATOR = {"forward_euler": "#762a83", "symplectic_euler": "#4d9221", "runge_kutta2": "#b2182b", "leapfrog": "#2166ac"}
 GREY = "#737373"
 plt.rcParams.update(
     {
@@ -80,7 +81,7 @@ def panel(axes, rows, err_name, axis="time", look=look_of, name=None, cost=3.0, 
         y = top * (top / axes.get_ylim()[0]) ** (-0.035 * (k % 3))
         axes.plot([x], [y], marker="X", ms=9, mfc="none", color=colour, ls="none", clip_on=False)
         if status not in named:  # once
-            axes.annotate(status, (x, y), (-7, 0), ha="right", va="center", textcoords="offset points", fontsize=7)
+            axes.annotate(status, (x, y), (7, 0), va="center", textcoords="offset points", fontsize=7)
         named.add(status)
     for which in (axes.xaxis, axes.yaxis):
         lo, hi = which.get_view_interval()
@@ -121,6 +122,12 @@ def triangles(axes, cost):
         axes.annotate(f"order {order}", (10 ** (a + 0.5 * wide), 10 ** (top - fall)), (0, -9), ha="center",
                       textcoords="offset points", fontsize=7, color=GREY)  # fmt: skip
         a += wide * 1.35
+
+
+def legend(axes, size=7.5):
+    """Beside the panel, so that it hides nothing."""
+    if axes.get_legend_handles_labels()[1]:
+        axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.02), fontsize=size, borderaxespad=0.2)
 
 
 def svg(figure, name):

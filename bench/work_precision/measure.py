@@ -21,6 +21,7 @@ class Machine:
 
     def __init__(self, executable):
         self.executable = str(executable)
+        self.quiet = os.getloadavg()[0] < 1.5  # else the scheduler finds a better core than we do
         listed = subprocess.run([self.executable, "--list"], check=True, capture_output=True, text=True).stdout
         self.families = []
         for line in listed.splitlines():
@@ -37,7 +38,7 @@ class Machine:
         for name in SETTINGS:
             if name in setting:
                 command += [f"--{name}", f"{setting[name]:.9g}"]
-        if setting.get("threads", 1) == 1:  # one core: no move between two
+        if setting.get("threads", 1) == 1 and self.quiet:  # one core: no move between two
             command = ["taskset", "-c", str(max(os.sched_getaffinity(0))), *command]
         environment = dict(os.environ, OMP_WAIT_POLICY="passive")
         done = subprocess.run(command, capture_output=True, text=True, env=environment)

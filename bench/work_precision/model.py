@@ -5,7 +5,7 @@ Time: seconds a particle update, from the ladder, times particles, evaluations a
 engine's own criteria, dt = min(C h/(c0 + U), C/2 h^2/nu), so that they know of Re and L.
 Error: between the points of a ladder E = a n^-p (each stretch has its own p, so that a floor of Mach number or disorder
 shows as a small p). A case is one of dimensionless numbers: L changes nothing at the same n and Re. With Re the error goes
-as Re^q; q is measured, by a ladder at a second Re, for each family and n.
+as Re^q between the numbers at which a short ladder was measured, each family and each n with its own q.
 """
 import math
 from dataclasses import dataclass
@@ -61,7 +61,7 @@ class Offer:
     error: float
     time: float
     inside: bool  # the ladder was measured there
-    known_q: bool
+    of_its_own: bool  # what Re does was measured for this family
 
     def setting(self, here):
         return {"n": self.n, "cfl": self.cfl, "sound": self.sound, **here}
@@ -71,35 +71,31 @@ class Ladder:
     """One family at one C and one speed of sound, at the case's own Re and maybe at others."""
 
     def __init__(self, rows, case):
-        own = {r["n"]: r for r in rows if r["reynolds"] == case.reynolds and r["length"] == case.length}
+        rows = [r for r in rows if r["length"] == case.length]
+        own = {r["n"]: r for r in rows if r["reynolds"] == case.reynolds}
         self.rows = [own[n] for n in sorted(own)]
         self.case, self.first = case, rows[0]
         self.n = [r["n"] for r in self.rows]
         self.e = [r["err"] for r in self.rows]
-        others = [r for r in rows if r["reynolds"] != case.reynolds and r["length"] == case.length and r["n"] in own]
-        self.q = {}
-        self.seen = {case.reynolds} | {r["reynolds"] for r in others}
-        for r in others:
-            self.q.setdefault(r["reynolds"], {})[r["n"]] = math.log(r["err"] / own[r["n"]]["err"]) / math.log(
-                r["reynolds"] / case.reynolds
-            )
+        self.with_re = {}  # n: {Re: error over that at the case's Re}
+        for r in rows:
+            if r["n"] in own:
+                self.with_re.setdefault(r["n"], {})[r["reynolds"]] = r["err"] / own[r["n"]]["err"]
+        self.with_re = {n: each for n, each in self.with_re.items() if len(each) >= 2}
+        self.seen = {case.reynolds}.union(*self.with_re.values()) if self.with_re else {case.reynolds}
 
-    def error(self, n, here, q_of_others=0.0):
-        return ladder.between(self.n, self.e, n) * (here["reynolds"] / self.case.reynolds) ** self.power(n, here, q_of_others)
+    def error(self, n, here, of_others=1.0):
+        return ladder.between(self.n, self.e, n) * self.change(n, here, of_others)
 
-    def power(self, n, here, q_of_others):
-        """q on this side of the case's Re, at n; constant beyond the measured n."""
-        if not self.q:
-            return q_of_others
-        side = [re for re in self.q if (re - self.case.reynolds) * (here["reynolds"] - self.case.reynolds) > 0]
-        table = self.q[min(side or self.q, key=lambda re: abs(math.log(re / here["reynolds"])))]
-        at = sorted(table)
-        t = min(max(n, at[0]), at[-1])
-        k = next((k for k in range(1, len(at)) if at[k] >= t), None)
-        if k is None:
-            return table[at[0]]
-        share = math.log(t / at[k - 1]) / math.log(at[k] / at[k - 1])
-        return table[at[k - 1]] + share * (table[at[k]] - table[at[k - 1]])
+    def change(self, n, here, of_others=1.0):
+        """The error at another Re over that at the case's: log-log in Re at each n, and between the n; constant beyond."""
+        if here["reynolds"] == self.case.reynolds:
+            return 1.0
+        if not self.with_re:
+            return of_others
+        at = sorted(self.with_re)
+        values = [ladder.between(list(each), list(each.values()), here["reynolds"]) for _, each in sorted(self.with_re.items())]
+        return values[0] if len(at) < 2 else ladder.between(at, values, min(max(n, at[0]), at[-1]))
 
     def time(self, n, here):
         f = self.first
@@ -127,9 +123,10 @@ class Known:
     def keep(self, wanted):
         self.ladders = [one for one in self.ladders if wanted(one.first)]
 
-    def usual_q(self, n, here):
-        values = sorted(one.power(n, here, 0.0) for one in self.ladders if one.q)
-        return values[len(values) // 2] if values else 0.0
+    def usual_change(self, n, here):
+        """What Re does to the families of which it was measured: the middle one."""
+        values = sorted(one.change(n, here) for one in self.ladders if one.with_re)
+        return values[len(values) // 2] if values else 1.0
 
     def offers(self, here, error=None, budget=None):
         """Best first: the least time for an error, or the least error for a budget; one for each ladder."""
@@ -142,12 +139,12 @@ class Known:
             n = fits[0] if error else fits[-1]
             found.append(
                 Offer(one.first["family"], one.first["cfl"], one.first["sound"], n, self.error(one, n, here),
-                      one.time(n, here), n <= one.n[-1], bool(one.q) or here["reynolds"] == self.case.reynolds)
+                      one.time(n, here), n <= one.n[-1], bool(one.with_re) or here["reynolds"] == self.case.reynolds)
             )  # fmt: skip
         return sorted(found, key=lambda o: (o.time, o.error) if error else (o.error, o.time))
 
     def error(self, one, n, here):
-        return one.error(n, here, self.usual_q(n, here))
+        return one.error(n, here, self.usual_change(n, here))
 
     def reach(self, here):
         least = min((self.error(one, one.n[-1], here) for one in self.ladders), default=math.nan)
@@ -156,7 +153,7 @@ class Known:
     def warnings(self, here, offer):
         if not offer.inside:
             yield "n is beyond the finest level that was measured"
-        if not offer.known_q:
+        if not offer.of_its_own:
             yield "no ladder of this family was measured at another Re: that of the others is taken"
         seen = set().union(*(one.seen for one in self.ladders))
         if not min(seen) / 2 <= here["reynolds"] <= 2 * max(seen):

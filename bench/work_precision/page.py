@@ -16,7 +16,7 @@ def short(row):
     return f"{row['kernel'].replace('_', ' ')} {row['h_dx']:g}, {row['integrator'].replace('_', ' ')}"
 
 
-def grid(rows, columns, title, width=6.4, height=4.6):
+def grid(rows, columns, title, width=7.0, height=4.4):
     figure, axes = plt.subplots(rows, columns, figsize=(width * columns, height * rows), layout="constrained", squeeze=False)
     figure.suptitle(title, x=0.01, ha="left", fontsize=13, fontweight="bold")
     figure.title_of_all = title
@@ -27,8 +27,8 @@ def w1(rows):
     main = [r for r in rows if r["ladder"] == "resolution" and r["formulation"] == SHIFTED and r["precision"] == "double"]
     figure, axes = grid(3, 2, "W1. Taylor-Green vortices, Re = 100, t = 1 L/U, from a lattice jittered by a fifth")
     diagram.panel(axes[0, 0], main, "L1_speed", name=short, title="kernels and integrators, over time")
-    axes[0, 0].legend(loc="upper right")
     diagram.panel(axes[0, 1], main, "L1_speed", axis="updates", name=short, title="the same over particle updates")
+    diagram.legend(axes[0, 1])
     diagram.panel(axes[1, 0], main, "L1_p", name=short, title="pressure")
     others = [r for r in rows if r["ladder"] == "resolution" and r not in main]
     base = [r for r in main if r["kernel"] == "quintic_spline" and r["integrator"] == "symplectic_euler"]
@@ -36,21 +36,24 @@ def w1(rows):
     colours = {}
     look = lambda r: diagram.look_of(r) | {"color": colours.setdefault(r["formulation"], f"C{len(colours)}")}
     diagram.panel(axes[1, 1], base + others, "L1_speed", look=look, name=named, title="formulations and float")
-    if axes[1, 1].get_legend_handles_labels()[1]:
-        axes[1, 1].legend(loc="upper right", fontsize=6.5)
+    diagram.legend(axes[1, 1])
     dt = [r for r in rows if r["ladder"] == "dt"]
-    diagram.panel(axes[2, 0], dt, "L1_speed", name=short, cost=1, title="ladder in dt, 50 x 50: C = 1/16 to 2")
-    axes[2, 0].legend(loc="best")
-    sound = [r | {"family": r["family"] + r["ladder"]} for r in rows
-             if r["ladder"] in ("sound", "resolution") and r["integrator"] == "symplectic_euler"
-             and r["kernel"] in ("quintic_spline", "wendland_c4") and r["formulation"] == SHIFTED
-             and r["precision"] == "double"]  # fmt: skip
-    raised = lambda r: diagram.look_of(r) | {"ls": ":" if r["ladder"] == "sound" else "-"}
-    said = lambda r: short(r).split(",")[0] + (", c0 = 10 U to 40 U" if r["ladder"] == "sound" else ", c0 = 10 U")
-    diagram.panel(axes[2, 1], sound, "L1_speed", axis="updates", look=raised, name=said,
-                  title="speed of sound raised with resolution")  # fmt: skip
-    axes[2, 1].legend(loc="best")
-    return figure, [best(rows, "resolution", "L1_speed", (0.03, 0.01, 0.005))]
+    by = lambda r: diagram.look_of(r) | {"color": diagram.INTEGRATOR[r["integrator"]]}
+    diagram.panel(axes[2, 0], dt, "L1_speed", look=by, name=short, cost=1, title="ladder in dt, 50 x 50: C = 1/8 to 2")
+    axes[2, 0].legend(loc="upper right", fontsize=7)
+    chosen = [r | {"family": f"{r['family']}, {r['ladder']}"} for r in rows
+              if r["ladder"] in ("long steps", "sound") or (r["ladder"] == "resolution" and r["integrator"] == "leapfrog"
+              and r["formulation"] == SHIFTED and r["precision"] == "double" and r["kernel"] != "cubic_spline")]  # fmt: skip
+    dashes = {"resolution": ":", "long steps": "-", "sound": "--"}
+    what = {"resolution": "C = 0.25", "long steps": "C = 1", "sound": "C = 1, c0 = 10 U n/25"}
+    raised = lambda r: diagram.look_of(r) | {"ls": dashes[r["ladder"]]}
+    said = lambda r: f"{short(r).split(',')[0]}, {what[r['ladder']]}"
+    diagram.panel(axes[2, 1], chosen, "L1_speed", look=raised, name=said, title="leapfrog: long steps; sound raised with n")
+    diagram.legend(axes[2, 1])
+    all_steps = [r | {"family": f"{r['family']}, C = {r['cfl']:g}", "ladder": "all"} for r in rows
+                 if r["ladder"] in ("resolution", "long steps")]  # fmt: skip
+    seed = "cubic_spline 1, sigma2, runge_kutta2, double, C = 0.25"
+    return figure, [best(all_steps, "all", "L1_speed", (0.03, 0.01, 0.005), seed)]
 
 
 def best(rows, which, err_name, targets, seed=None):
@@ -122,7 +125,7 @@ def w2(rows):
     named = lambda r: f"{r['kernel'].replace('_', ' ')} {r['h_dx']:g}, {r['formulation']}"
     diagram.panel(axes[0, 0], main, "L2_u", look=look, name=named, cost=COST_CHANNEL, title="walls and kernels, over time")
     diagram.panel(axes[0, 1], main, "L2_u", axis="updates", look=look, name=named, cost=COST_CHANNEL, title="over updates")
-    axes[0, 1].legend(loc="upper right", fontsize=7)
+    diagram.legend(axes[0, 1])
     return figure, [best(rows, "resolution", "L2_u", (0.03, 0.01, 0.003))]
 
 
@@ -132,13 +135,12 @@ COST_CHANNEL = 3  # the step is viscous, dx^2, and the channel 16 dx long below 
 def w3(rows):
     dt = [r for r in rows if r["ladder"] == "dt"]
     figure, axes = grid(2, 2, "W3. Standing sound wave, 10 periods, cubic spline 1.3: against the lattice's own frequency")
-    integrator = {"forward_euler": "#762a83", "symplectic_euler": "#4d9221", "runge_kutta2": "#b2182b", "leapfrog": "#2166ac"}
-    look = lambda r: diagram.look_of(r) | {"color": integrator[r["integrator"]]}
+    look = lambda r: diagram.look_of(r) | {"color": diagram.INTEGRATOR[r["integrator"]]}
     named = lambda r: r["integrator"].replace("_", " ")
     titles = {"omega": "frequency, C = 0.05 to 2 at 32 a wave", "amplitude": "amplitude a period", "wave": "the wave itself"}
     for place, (err, title) in zip((axes[0, 0], axes[0, 1], axes[1, 0]), titles.items()):
         diagram.panel(place, dt, err, look=look, name=named, cost=1, title=title)
-    axes[0, 0].legend(loc="best")
+    diagram.legend(axes[0, 0])
     rest = [r for r in rows if r["ladder"] == "resolution"]
     diagram.panel(axes[1, 1], rest, "wave", look=look, name=named, cost=2, title="the wave, 8 to 64 a wave at C = 0.25")
     lines = []
@@ -163,11 +165,11 @@ def w5(rows):
         ", float" if r["precision"] == "float" else "")  # fmt: skip
     diagram.panel(axes[0, 0], main, "front", look=look, name=named, cost=3, title="error of the front, over time")
     diagram.panel(axes[0, 1], main, "front", axis="updates", look=look, name=named, cost=3, title="over updates")
-    axes[0, 1].legend(loc="best", fontsize=6.5)
+    diagram.legend(axes[0, 1])
     diagram.panel(axes[1, 0], main, "density", look=look, name=named, cost=3, title="largest change of density")
     dt = [r for r in rows if r["ladder"] == "dt"]
     diagram.panel(axes[1, 1], dt, "front", name=short, cost=None, title="in dt, H/dx = 40: C = 0.1 to 1.2")
-    axes[1, 1].legend(loc="best")
+    diagram.legend(axes[1, 1])
     note = Note("""The experiment is not exact: of the error of about 2.4 % at the finest level most is the first point of the
     table (T = 0.41), of which all runs are short. A family that is below the others at a coarse level is there by luck; what the
     diagram says is what the same front costs, and who is stopped.""")
@@ -176,7 +178,7 @@ def w5(rows):
 
 def w6(rows):
     figure, axes = grid(1, 2, "W6. Two discs head-on, 64 phases of the step: omega dt = 1.37 to 0.014")
-    colour = {"forward_euler": "#762a83", "symplectic_euler": "#4d9221", "runge_kutta2": "#b2182b", "leapfrog": "#2166ac"}
+    colour = diagram.INTEGRATOR
     look = lambda r: diagram.look_of(r) | {"color": colour[r["integrator"]]}
     named = lambda r: r["integrator"].replace("_", " ")
     watched = [r for r in rows if r["ladder"] == "watched" and r["status"] != "OK"]
@@ -191,7 +193,7 @@ def w6(rows):
         for r in stopped:
             place.plot([diagram.work(r, "updates")], [top], marker="X", ms=8, mfc="none", color=colour[r["integrator"]],
                        ls="none", clip_on=False)  # fmt: skip
-    axes[0, 0].legend(loc="best")
+    diagram.legend(axes[0, 0])
     note = Note("""Crosses: what the watch stops (EnergyRunaway, 5 % of the reference) at that step; the lines are measured with the
     watch looking on. Numerics C.2 gives for forward Euler 38.7 times the energy a contact at omega dt = sqrt 2.""")
     lines = []

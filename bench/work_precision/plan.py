@@ -3,25 +3,31 @@
 from measure import Point
 
 SHIFTED = "sigma2+diffusion+shifting"
-SECOND_RE = 400  # of the vortices: what the error does with Re, for advise
+OTHER_RE = (50, 200, 400)  # of the vortices: what the error does with Re, for advise
 
 
 def taylor_green(machine, paper):
-    """W1: ladders in resolution for all families; in dt and in the speed of sound for a few; at a second Re for advise."""
+    """W1: ladders in resolution for all families at C = 0.25; at C = 1 for the integrator that bears it; in dt; in the speed
+    of sound; at other Re for advise."""
     points = []
     levels = (25, 50, 100, 200) if paper else (25, 50, 100)
     for f in machine.find("taylor_green"):
         points += [Point("W1", "resolution", f, 8 * (n / 100) ** 3, n=n) for n in levels]
     for f in machine.find("taylor_green", precision="double", formulation=SHIFTED):
-        cheap = f["integrator"] == "symplectic_euler"
-        for n in levels[: 3 if paper else 2]:
-            points.append(Point("W1", "reynolds", f, 8 * (n / 100) ** 3, n=n, reynolds=SECOND_RE))
+        if f["kernel"] != "cubic_spline" and f["integrator"] == "symplectic_euler":
+            points += [Point("W1", "reynolds", f, 8 * (n / 100) ** 3, n=n, reynolds=re)
+                       for n in levels[: 3 if paper else 2] for re in OTHER_RE]  # fmt: skip
         if f["kernel"] == "quintic_spline":
-            for cfl in (0.0625, 0.125, 0.25, 0.5, 1.0, 1.5, 2.0):
-                points.append(Point("W1", "dt", f, 0.25 / cfl, n=50, cfl=cfl))
-        if cheap and f["kernel"] in ("quintic_spline", "wendland_c4"):
-            for n in levels:
-                points.append(Point("W1", "sound", f, 8 * (n / 100) ** 3 * n / 25, n=n, sound=10 * n / 25))
+            points += [Point("W1", "dt", f, 0.25 / cfl, n=50, cfl=cfl) for cfl in (0.125, 0.25, 0.5, 1.0, 1.5, 2.0)]
+        if f["integrator"] != "leapfrog" or f["kernel"] == "cubic_spline":
+            continue
+        for n in (25, 50, 100, 200):  # a fourth of the steps
+            points.append(Point("W1", "long steps", f, 2 * (n / 100) ** 3, n=n, cfl=1))
+            if n <= 100:
+                points += [Point("W1", "reynolds", f, 2 * (n / 100) ** 3, n=n, cfl=1, reynolds=re)
+                           for re in (25, *OTHER_RE) if n <= 50 or re != 200]  # fmt: skip
+            if n <= 100 or paper:
+                points.append(Point("W1", "sound", f, 2 * (n / 100) ** 3 * n / 25, n=n, cfl=1, sound=10 * n / 25))
     return points
 
 
@@ -92,5 +98,4 @@ def anatomy(machine, paper):
 FIGURES = {"W1": taylor_green, "W2": poiseuille, "W3": acoustic, "W5": dam_break, "W6": contact, "W9": anatomy}
 
 
-def points(machine, figures, paper):
-    return [p for name in figures for p in FIGURES[name](machine, paper)]
+BUDGET = {"W1": 320, "W2": 110, "W3": 25, "W5": 125, "W6": 10, "W9": 60}  # CPU seconds of the default set

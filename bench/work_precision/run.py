@@ -17,8 +17,9 @@ def options():
     p = argparse.ArgumentParser(prog="bench/run.sh work_precision", description=__doc__)
     p.add_argument("--set", choices=("default", "paper"), default="default", help="paper: a level more, and hours")
     p.add_argument("--figures", default=",".join(plan.FIGURES), help="of " + ",".join(plan.FIGURES))
-    p.add_argument("--budget", type=float, help="CPU seconds of all runs (default 600; paper 14400)")
-    p.add_argument("--longest", type=float, help="CPU seconds of one run (default 15; paper 600)")
+    p.add_argument("--budget", type=float, help="CPU seconds of all figures (default 650; paper 14400)")
+    p.add_argument("--longest", type=float, help="CPU seconds of one run (default 18; paper 600)")
+    p.add_argument("--continue", action="store_true", dest="go_on", help="keep the points that the tables hold")
     p.add_argument("--into", type=Path, help="folder of the page and the tables (default build/bench/work_precision)")
     p.add_argument("--page-only", action="store_true", help="draw again from the tables")
     p.add_argument("--executable", type=Path, help=argparse.SUPPRESS)
@@ -39,19 +40,33 @@ def main():
     into.mkdir(parents=True, exist_ok=True)
     if not o.page_only:
         machine = Machine(o.executable)
-        points = plan.points(machine, o.figures, paper)
-        rows, skipped = measure(machine, points, o.budget or (14400 if paper else 600), o.longest or (600 if paper else 15),
-                                lambda line: print(line, file=sys.stderr))  # fmt: skip
-        facts = json.loads(o.context) | {"date": datetime.date.today().isoformat(), "set": o.set}
-        facts["busy"] = busy(rows)
-        # A figure that was measured alone leaves the others as they are.
+        whole = o.budget or (14400 if paper else sum(plan.BUDGET.values()))
         for name in o.figures:
-            part = [r for r in rows if r["figure"] == name]
-            facts["skipped"] = [
-                f"{p.ladder}, n {p.setting['n']}, {p.family['family']}: {p.skipped}" for p in skipped if p.figure == name
-            ]
-            ladder.write(into / f"{name.lower()}.csv", part, ["SPDX-License-Identifier: BSD-3-Clause", json.dumps(facts)])
+            table = into / f"{name.lower()}.csv"
+            points = plan.FIGURES[name](machine, paper)
+            kept = held(table, points) if o.go_on and table.exists() else []
+            points = [p for p in points if not any(same(p, r) for r in kept)]
+            share = whole * plan.BUDGET[name] / sum(plan.BUDGET.values())
+            rows, skipped = measure(machine, points, share, o.longest or (600 if paper else 18),
+                                    lambda line: print(line, file=sys.stderr))  # fmt: skip
+            facts = json.loads(o.context) | {"date": datetime.date.today().isoformat(), "set": o.set}
+            facts["busy"] = busy(kept + rows)
+            facts["skipped"] = [f"{p.ladder}, n {p.setting['n']}, {p.family['family']}: {p.skipped}" for p in skipped]
+            remarks = ["SPDX-License-Identifier: BSD-3-Clause", json.dumps(facts)]
+            ladder.write(table, kept + rows, remarks)
     page.write(into)
+
+
+def same(point, row):
+    f, s = point.family, point.setting
+    return (row["figure"], row["ladder"], row["case"], row["family"]) == (
+        point.figure, point.ladder, f["case"], f["family"]
+    ) and all(abs(row[k] - s[k]) <= 1e-5 * abs(s[k]) for k in ladder.SETTING if k in s)  # fmt: skip
+
+
+def held(table, points):
+    """The rows of a table that belong to the plan."""
+    return [r for r in ladder.read(table) if any(same(p, r) for p in points)]
 
 
 def busy(rows):
