@@ -55,6 +55,7 @@ CASES = {
 @dataclass
 class Offer:
     family: str
+    h_dx: float
     cfl: float
     sound: float
     n: int
@@ -138,7 +139,7 @@ class Known:
                 continue
             n = fits[0] if error else fits[-1]
             found.append(
-                Offer(one.first["family"], one.first["cfl"], one.first["sound"], n, self.error(one, n, here),
+                Offer(one.first["family"], one.first["h_dx"], one.first["cfl"], one.first["sound"], n, self.error(one, n, here),
                       one.time(n, here), n <= one.n[-1], bool(one.with_re) or here["reynolds"] == self.case.reynolds)
             )  # fmt: skip
         return sorted(found, key=lambda o: (o.time, o.error) if error else (o.error, o.time))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One page of all figures that have a table in a folder; nothing else is needed to read it."""
+import csv
 import html
 import json
 import math
@@ -53,7 +54,23 @@ def w1(rows):
     all_steps = [r | {"family": f"{r['family']}, C = {r['cfl']:g}", "ladder": "all"} for r in rows
                  if r["ladder"] in ("resolution", "long steps")]  # fmt: skip
     seed = "cubic_spline 1, sigma2, runge_kutta2, double, C = 0.25"
-    return figure, [best(all_steps, "all", "L1_speed", (0.03, 0.01, 0.005), seed)]
+    return figure, [best(all_steps, "all", "L1_speed", (0.03, 0.01, 0.005), seed), *in_float(rows, "L1_speed")]
+
+
+def in_float(rows, err_name):
+    """What float changes of the error and of the time, where both were measured (numerics D.4)."""
+    key = lambda r: (r["kernel"], r["h_dx"], r["formulation"], r["integrator"], r["n"], r["cfl"])
+    of = lambda p: {key(r): r for r in rows if r["precision"] == p and r["err_name"] == err_name and r["ladder"] == "resolution"}
+    double, single = of("double"), of("float")
+    lines = [[f"{short(r)}, {r['formulation']}", f"{r['n']:.0f}", percent(double[k]["err"]), percent(r["err"]),
+              percent(abs(r["err"] / double[k]["err"] - 1)), f"{ladder.seconds(r) / ladder.seconds(double[k]):.2f}"]
+             for k, r in sorted(single.items()) if k in double]  # fmt: skip
+    if not lines:
+        return
+    head = ["float against double", "n", "error, double", "error, float", "they differ by", "time over that of double"]
+    yield Table(head, lines)
+    yield Note("""Particles of a jittered start follow other paths as soon as a digit differs, so errors differ by chance too: by
+    how much, two integrators of the same order show.""")
 
 
 def best(rows, which, err_name, targets, seed=None):
@@ -166,14 +183,14 @@ def w5(rows):
     diagram.panel(axes[0, 0], main, "front", look=look, name=named, cost=3, title="error of the front, over time")
     diagram.panel(axes[0, 1], main, "front", axis="updates", look=look, name=named, cost=3, title="over updates")
     diagram.legend(axes[0, 1])
-    diagram.panel(axes[1, 0], main, "density", look=look, name=named, cost=3, title="largest change of density")
+    diagram.panel(axes[1, 0], main, "density", look=look, name=named, cost=None, title="largest change of density")
     dt = [r for r in rows if r["ladder"] == "dt"]
     diagram.panel(axes[1, 1], dt, "front", name=short, cost=None, title="in dt, H/dx = 40: C = 0.1 to 1.2")
     diagram.legend(axes[1, 1])
     note = Note("""The experiment is not exact: of the error of about 2.4 % at the finest level most is the first point of the
     table (T = 0.41), of which all runs are short. A family that is below the others at a coarse level is there by luck; what the
     diagram says is what the same front costs, and who is stopped.""")
-    return figure, [note, best(rows, "resolution", "front", (0.03, 0.025, 0.02))]
+    return figure, [note, best(rows, "resolution", "front", (0.03, 0.025, 0.02)), *in_float(rows, "front")]
 
 
 def w6(rows):
@@ -286,6 +303,20 @@ def facts_of(path):
     return {}
 
 
+def advised(into):
+    """What advise predicted of held-out cases, if it was asked to check itself."""
+    path = into / "advise.csv"
+    if not path.exists():
+        return
+    with open(path, newline="", encoding="utf-8") as file:
+        found = list(csv.DictReader(file))
+    over = lambda r, k: f"{float(r[k]) / float(r[k + '_predicted']):.2f}"
+    lines = [[r["asked"], f"{r['family']}, C {r['C']}, n {r['n']}", percent(float(r["error_predicted"])), over(r, "error"),
+              f"{r['time_predicted']} s", over(r, "time")] for r in found]  # fmt: skip
+    head = ["advise", "the cheapest", "error predicted", "came out over it", "time predicted", "came out over it"]
+    yield "Predictions for cases that are on no ladder (advise --check)", Table(head, lines)
+
+
 def write(into):
     """Draws every figure that has a table in the folder; index.html, which needs nothing else, and README.md beside it."""
     parts, lines = [], [*INTRODUCTION]
@@ -313,6 +344,9 @@ def write(into):
         for b in below:
             lines += [b.markdown(), ""]
         lines += [f"{said}. Table: [{name.lower()}.csv]({name.lower()}.csv)", ""]
+    for heading, item in advised(into):
+        parts.append(f"<section><h2>{heading}</h2>{item.html()}</section>")
+        lines += [f"## {heading}", "", item.markdown(), ""]
     (into / "README.md").write_text("\n".join(lines), encoding="utf-8")
     out = into / "index.html"
     out.write_text(
