@@ -32,12 +32,19 @@ shift
 }
 
 bash tools/setup.sh --with bench
+of_ladders=no
+tool=bench/work_precision/$name.py
+if [[ $name == work_precision || $name == advise ]]; then
+    of_ladders=yes
+    [[ $name == advise ]] || tool=bench/work_precision/run.py
+    case " $* " in # nothing to build for
+        *" --help "* | *" -h "* | *" --page-only "* | *" --dry "*) exec /usr/bin/python3 -B "$tool" "$@" ;;
+    esac
+fi
 if [[ $name == compile_time ]]; then
     bash tools/setup.sh --with examples --with clang
     exec bash bench/compile_time.sh "$@"
 fi
-of_ladders=no
-[[ $name != work_precision && $name != advise ]] || of_ladders=yes
 target=bench_$name
 [[ $of_ladders == no ]] || target=bench_work_precision
 if [[ $of_ladders == no ]]; then
@@ -60,9 +67,7 @@ compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' build/bench/CMakeCache.txt 
 compiler="$(basename "$compiler") $("$compiler" -dumpfullversion 2> /dev/null || "$compiler" -dumpversion)"
 commit=$(git describe --always --dirty=+ 2> /dev/null) || commit=unknown
 if [[ $of_ladders == yes ]]; then
-    tool=$name
-    [[ $name != work_precision ]] || tool=run
-    exec /usr/bin/python3 -B "bench/work_precision/$tool.py" --executable "$executable" \
+    exec /usr/bin/python3 -B "$tool" --executable "$executable" \
         --context "{\"cpu\": \"${cpu:-unknown} ($(nproc) cores)\", \"compiler\": \"$compiler\", \"commit\": \"$commit\"}" "$@"
 fi
 log=build/bench/$name.log

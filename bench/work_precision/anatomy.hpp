@@ -32,7 +32,7 @@ void add_feature(std::string const& name, Term... term)
         auto& system = scene.system();
         auto least = [&](auto const& call) { // of many turns: the rest is who else was busy
             double best = std::numeric_limits<double>::infinity();
-            for (int turn = 0; turn < 8; ++turn) {
+            for (int turn = 0; turn < 20; ++turn) {
                 const std::clock_t start = std::clock();
                 call();
                 best = std::min(best, double(std::clock() - start) / CLOCKS_PER_SEC);

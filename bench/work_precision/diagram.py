@@ -76,13 +76,11 @@ def panel(axes, rows, err_name, axis="time", look=look_of, name=None, cost=3.0, 
     lo, hi = axes.get_ylim()
     axes.set_ylim(lo, hi * 1.6 if crosses else hi)
     top = axes.get_ylim()[1]
-    named = set()
-    for k, (x, colour, status) in enumerate(sorted(crosses)):
+    for k, (x, colour, _) in enumerate(sorted(crosses)):
         y = top * (top / axes.get_ylim()[0]) ** (-0.035 * (k % 3))
         axes.plot([x], [y], marker="X", ms=9, mfc="none", color=colour, ls="none", clip_on=False)
-        if status not in named:  # once
-            axes.annotate(status, (x, y), (7, 0), va="center", textcoords="offset points", fontsize=7)
-        named.add(status)
+    for status in sorted({status for _, _, status in crosses}):
+        axes.plot([], [], marker="X", ms=8, mfc="none", color=GREY, ls="none", label=f"stopped: {status}")
     for which in (axes.xaxis, axes.yaxis):
         lo, hi = which.get_view_interval()
         if hi < 30 * lo:  # less than one and a half decades: the digits between are wanted
@@ -105,6 +103,14 @@ LONG = {
     "L1_speed": "L1 of speed [-]",
     "L1_velocity": "L1 of velocity [-]",
     "L1_p": "mean error of p over its largest [-]",
+    "L2_u": "L2 of u [-]",
+    "omega": "frequency, relative error [-]",
+    "amplitude": "amplitude, change in a period [-]",
+    "wave": "wave at the end, error over its amplitude [-]",
+    "front": "rms of Z/Z_data - 1, shifted [-]",
+    "density": "largest |rho/rho0 - 1| [-]",
+    "restitution": "rms of e - 1 [-]",
+    "energy_a_contact": "|mean change of energy| a contact [-]",
 }
 
 

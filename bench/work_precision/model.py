@@ -135,6 +135,9 @@ class Known:
         for one in self.ladders:
             sizes = range(int(one.n[0]), int(one.n[-1] * BEYOND) + 1)
             fits = [n for n in sizes if (self.error(one, n, here) <= error if error else one.time(n, here) <= budget)]
+            if error:  # from where on it stays there: a dip between two signs is luck
+                above = [n for n in sizes if n not in set(fits)]
+                fits = [n for n in fits if not above or n > above[-1]]
             if not fits:
                 continue
             n = fits[0] if error else fits[-1]

@@ -32,13 +32,11 @@ def taylor_green(machine, paper):
 
 
 def poiseuille(machine, paper):
-    levels = (10, 20, 40, 80) if paper else (10, 20, 40)
-    points = [Point("W2", "resolution", f, 2 * (n / 40) ** 3, n=n, **MORRIS)
+    levels = (10, 20, 40, 80, 160) if paper else (10, 20, 40, 80)
+    points = [Point("W2", "resolution", f, 0.3 * (n / 40) ** 3, n=n, **MORRIS)
               for f in machine.find("poiseuille") for n in levels]  # fmt: skip
     for f in machine.find("poiseuille", formulation="adami+no_slip"):
-        points += [Point("W2", "reynolds", f, 2 * (n / 40) ** 3, n=n, **MORRIS | {"reynolds": 0.25}) for n in (10, 20)]
-        if not paper:
-            points.append(Point("W2", "resolution", f, 12, n=80, **MORRIS))
+        points += [Point("W2", "reynolds", f, 0.3 * (n / 40) ** 3, n=n, **MORRIS | {"reynolds": 0.25}) for n in (10, 20)]
     return points
 
 
@@ -98,4 +96,4 @@ def anatomy(machine, paper):
 FIGURES = {"W1": taylor_green, "W2": poiseuille, "W3": acoustic, "W5": dam_break, "W6": contact, "W9": anatomy}
 
 
-BUDGET = {"W1": 320, "W2": 110, "W3": 25, "W5": 125, "W6": 10, "W9": 60}  # CPU seconds of the default set
+BUDGET = {"W1": 320, "W2": 60, "W3": 25, "W5": 150, "W6": 10, "W9": 60}  # CPU seconds of the default set

@@ -17,7 +17,7 @@ def options():
     p = argparse.ArgumentParser(prog="bench/run.sh work_precision", description=__doc__)
     p.add_argument("--set", choices=("default", "paper"), default="default", help="paper: a level more, and hours")
     p.add_argument("--figures", default=",".join(plan.FIGURES), help="of " + ",".join(plan.FIGURES))
-    p.add_argument("--budget", type=float, help="CPU seconds of all figures (default 650; paper 14400)")
+    p.add_argument("--budget", type=float, help="CPU seconds of all figures (default 625; paper 14400)")
     p.add_argument("--longest", type=float, help="CPU seconds of one run (default 18; paper 600)")
     p.add_argument("--continue", action="store_true", dest="go_on", help="keep the points that the tables hold")
     p.add_argument("--into", type=Path, help="folder of the page and the tables (default build/bench/work_precision)")

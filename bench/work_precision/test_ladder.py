@@ -88,6 +88,11 @@ class Model(unittest.TestCase):
         self.assertEqual(offer.n, math.ceil((2 / 0.01) ** (1 / 1.5)))
         self.assertAlmostEqual(offer.time, row(n=float(offer.n))["cpu_s"], 6)
 
+    def test_does_not_trust_a_dip(self):
+        rows = [row(n=25.0), row(n=50.0, err=1e-4), row(n=100.0)]
+        offer = model.Known(rows, self.case).offers({"reynolds": 100, "length": 1}, error=0.001)
+        self.assertEqual(offer, [])
+
     def test_finds_the_resolution_for_a_budget(self):
         offer = self.known.offers({"reynolds": 100, "length": 1}, budget=row(n=70.0)["cpu_s"] * 1.001)[0]
         self.assertEqual(offer.n, 70)
