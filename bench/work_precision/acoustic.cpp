@@ -79,8 +79,7 @@ void add(std::string const& kernel, double h_dx)
         const Box<2> box{{0, 0}, {double(waves), 12 * dx}};
         const double omega = c0 * lattice_wave_number(K{.h = h}, dx, k);
         auto make = [&] {
-            const auto fluid =
-                wcsph(K{.h = h}, LinearEos{.rho0 = 1, .c0 = c0}, Continuity<2>{}, PressureForce<2>{});
+            const auto fluid = wcsph(K{.h = h}, LinearEos{.rho0 = 1, .c0 = c0}, Continuity<2>{}, PressureForce<2>{});
             Simulation scene(fluid, I{}, Periodic(box), Threads{s.threads, s.cell});
             scene.fill(box, dx, [&](auto& p, std::size_t i) {
                 p.put(velocity, i, {amplitude * c0 * std::sin(k * p.at(position, i)[0]), 0});
@@ -90,8 +89,8 @@ void add(std::string const& kernel, double h_dx)
         Wave wave{k, {}, {}, {}};
         const double end = s.until * 2 * std::numbers::pi / omega;
         const double steps = std::ceil(end / (s.cfl * h / c0)); // whole ones
-        return measured<I>(s, {.until = end, .dt = end / steps}, make, [&](auto&) { return errors_of(wave, omega); },
-                           wave);
+        return measured<I>(
+            s, {.until = end, .dt = end / steps}, make, [&](auto&) { return errors_of(wave, omega); }, wave);
     };
     families().push_back({"acoustic", kernel, h_dx, "sigma2", I::name, "double", run});
 }

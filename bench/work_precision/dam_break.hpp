@@ -13,9 +13,21 @@ namespace work_precision {
 
 /// Martin & Moyce (1952), Table 2: T and Z = x/a to T = 3.4, as in tests/data/martin_moyce_1952_n2_2_front.csv.
 inline constexpr std::array<std::array<double, 2>, 15> martin_moyce{{
-    {0.41, 1.11}, {0.84, 1.22}, {1.19, 1.44}, {1.43, 1.67}, {1.63, 1.89},
-    {1.83, 2.11}, {1.98, 2.33}, {2.2, 2.56}, {2.32, 2.78}, {2.51, 3},
-    {2.65, 3.22}, {2.83, 3.44}, {2.98, 3.67}, {3.11, 3.89}, {3.33, 4.11},
+    {0.41, 1.11},
+    {0.84, 1.22},
+    {1.19, 1.44},
+    {1.43, 1.67},
+    {1.63, 1.89},
+    {1.83, 2.11},
+    {1.98, 2.33},
+    {2.2, 2.56},
+    {2.32, 2.78},
+    {2.51, 3},
+    {2.65, 3.22},
+    {2.83, 3.44},
+    {2.98, 3.67},
+    {3.11, 3.89},
+    {3.33, 4.11},
 }};
 
 /// The front over T, at even times.
@@ -35,8 +47,8 @@ struct FrontOverTime {
     [[nodiscard]] double at(double time) const // linear between points
     {
         const auto n = std::ptrdiff_t(T.size());
-        const auto k = std::size_t(
-            std::clamp(std::upper_bound(T.begin(), T.end(), time) - T.begin(), std::ptrdiff_t(1), n - 1));
+        const auto k =
+            std::size_t(std::clamp(std::upper_bound(T.begin(), T.end(), time) - T.begin(), std::ptrdiff_t(1), n - 1));
         return Z[k - 1] + (Z[k] - Z[k - 1]) * (time - T[k - 1]) / (T[k] - T[k - 1]);
     }
     /// rms of Z/Z_data - 1, the gate late by a shift.
@@ -64,8 +76,7 @@ void add_dam(std::string const& kernel, double h_dx, Wall wall)
                                      DensityDiffusion{.delta = 0.1}, PressureForce<sigma>{},
                                      ArtificialViscosity{.alpha = 0.02}, Gravity<2>{{0, -g}});
             Simulation dam(water, I{}, Bce(Box<2>{{0, 0}, {4 * H, 2 * H}}, dx, wall, open(top)),
-                           Threads{s.threads, s.cell}, Precision{}, Watch{},
-                           lists_of(s, water.interaction.neighbours));
+                           Threads{s.threads, s.cell}, Precision{}, Watch{}, lists_of(s, water.interaction.neighbours));
             dam.fill(Box<2>{{0, 0}, {a, H}}, dx, hydrostatic);
             return dam;
         };

@@ -41,7 +41,7 @@ void add_channel(std::string const& kernel, double h_dx, std::string const& form
         const double nu = 1e-6, L = s.length, dx = L / s.n, h = h_dx * dx, V0 = s.reynolds * nu / L, rho0 = 1000;
         const double c0 = s.sound * V0, F = 8 * nu * V0 / (L * L);
         const double courant = std::min(s.cfl, 0.5 * s.cfl * c0 * h / nu); // as in taylor_green.hpp
-        const Box<2> box{{0, 0}, {dx * std::max(16, s.n * 2 / 5), L}};      // wide enough for the lists
+        const Box<2> box{{0, 0}, {dx * std::max(16, s.n * 2 / 5), L}};     // wide enough for the lists
         auto make = [&] {
             const auto fluid =
                 wcsph(K{.h = h}, LinearEos{.rho0 = rho0, .c0 = c0}, Continuity<2>{}, MolteniColagrossi{.delta = 0.1},
