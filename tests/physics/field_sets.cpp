@@ -113,13 +113,13 @@ static_assert(same(Frozen::sums, Fields{acceleration}) && Frozen::swept(0) == 2)
 
 // Without forces: nothing accelerates, and pressure, which nobody reads, is not packed.
 [[maybe_unused]] auto free_flight() { return wcsph(kernel, eos, Continuity<2>{}); }
-using Flight = decltype(scene(free_flight(), Open{}));
-static_assert(same(Flight::M::mobile, of_water - Fields{acceleration}) && Flight::values == 12);
-static_assert(same(Flight::record, Fields{position, velocity}));
-static_assert(Flight::Packed::count == 6 && Flight::Packed::stride == 8);
-static_assert(same(Flight::evolving, Fields{position, density}));
-static_assert(same(Flight::sums, Fields{density_rate}) && Flight::swept(0) == 1);
-static_assert(Set<Flight::M::marker>::size == 0);
+using FreeFlight = decltype(scene(free_flight(), Open{}));
+static_assert(same(FreeFlight::M::mobile, of_water - Fields{acceleration}) && FreeFlight::values == 12);
+static_assert(same(FreeFlight::record, Fields{position, velocity}));
+static_assert(FreeFlight::Packed::count == 6 && FreeFlight::Packed::stride == 8);
+static_assert(same(FreeFlight::evolving, Fields{position, density}));
+static_assert(same(FreeFlight::sums, Fields{density_rate}) && FreeFlight::swept(0) == 1);
+static_assert(Set<FreeFlight::M::marker>::size == 0);
 
 // Walls by continuity: a marker carries density and its rate, and no acceleration; gravity does not move it.
 using Seed = decltype(scene(water(), by_continuity()));
@@ -144,7 +144,7 @@ TEST(FieldSets, AreTheListedMinimum)
     print("dam of the front page, Adami walls", Dam{});
     print("... without viscosity", Inviscid{});
     print("... without continuity and diffusion", Frozen{});
-    print("... by continuity alone, no walls", Flight{});
+    print("... by continuity alone, no walls", FreeFlight{});
     print("dam of the front page, walls by continuity", Seed{});
     print("equal discs", Grains{});
 }
