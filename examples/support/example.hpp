@@ -17,6 +17,7 @@
 #include <spate/measure/probe.hpp>
 #include <spate/measure/wall_force.hpp>
 
+#include "support/checkpoints.hpp"
 #include "support/composition.hpp"
 #include "support/frame.hpp"
 #include "support/interrupt.hpp"
@@ -39,23 +40,28 @@ public:
         spate::io::History history(directory, options_.history_every, measure...);
         Pictures pictures(directory, name_, options_.picture_every);
         spate::require_non_negative("every", options_.every, "s");
-        const spate::RunOptions how{
-            .until = options_.until, .steps = options_.steps, .cfl = options_.cfl, .dt = options_.dt};
+        spate::RunOptions how{.until = options_.until, .steps = options_.steps, .cfl = options_.cfl, .dt = options_.dt};
         scene.check(how);
         require_writable(directory);
         Snapshots snapshots(Series(directory, name_), options_.every);
+        Summary& summary = summary_;
+        summary.energy_start = scene.energy().total();
+        Checkpoints<decltype(history), Snapshots, Pictures, Summary> checkpoints(
+            {}, directory, keep_every(options_.checkpoint_every), history, snapshots, pictures, summary);
         Talk talk{.quiet = options_.quiet};
-        spate::io::Progress progress(options_.until, options_.steps, spate::io::Progress::usual(options_.quiet));
+        if (!options_.restart.empty()) checkpoints.restart(scene, options_.restart);
+        how.steps = std::max(std::int64_t(0), options_.steps - scene.steps());
+        about(scene);
+        spate::io::Progress progress(options_.until, how.steps, spate::io::Progress::usual(options_.quiet));
         scene.interrupt_when([] { return interrupt() != 0; });
 
-        auto& summary = about(scene);
         summary.files = {history.file().filename(), name_ + ".hdf.series", name_ + "_*.hdf",
                          pictures.file().filename()};
         talk.opening(summary);
-        summary.energy_start = scene.energy().total();
+        if (!options_.restart.empty()) talk.going_on(options_.restart, scene.steps(), scene.time());
         try {
-            scene.run(how, history, snapshots, pictures, talk, progress);
-            if (interrupt() != 0) interrupted(summary, scene.steps(), scene.time());
+            scene.run(how, history, snapshots, pictures, talk, progress, checkpoints);
+            if (interrupt() != 0) interrupted(summary, scene.steps(), scene.time(), checkpoints.last());
         }
         catch (spate::Stop const& e) {
             summary.stop = e.name(), summary.stop_message = e.what(), summary.stop_facts = e.facts();
@@ -65,6 +71,7 @@ public:
             summary.stop = "OutputError", summary.stop_message = e.what();
             code_ = 4;
         }
+        if (!checkpoints.last().empty()) summary.files.emplace_back("checkpoint_*.h5");
         finish(summary, scene);
         if (code_ != 3) (measured(summary, scene, measure), ...);
         ended(summary, talk, directory, pictures.file());
@@ -86,7 +93,7 @@ private:
         });
     }
     template <class Scene>
-    [[gnu::cold]] Summary& about(Scene const& sim)
+    [[gnu::cold]] void about(Scene const& sim)
     {
         using Engine = typename Scene::Engine;
         auto name = []<class T>(T const&) { return type_name(typeid(T).name()); };
@@ -105,7 +112,6 @@ private:
         std::apply([&](auto const&... t) { (s.terms.push_back(name(t)), ...); }, sim.system().terms());
         s.threads = sim.system().backend().threads();
         s.seed = options_.seed;
-        return s;
     }
     /// The columns that history.csv ends with.
     template <class Scene, class Measure>

@@ -67,12 +67,16 @@ void Frame::require_writable(std::filesystem::path const& directory)
     }
 }
 
-void Frame::interrupted(Summary& s, std::int64_t step, double time)
+void Frame::interrupted(Summary& s, std::int64_t step, double time, std::filesystem::path const& checkpoint)
 {
     s.stop = "Interrupted";
-    s.stop_message = std::string("spate: interrupted by ") + (interrupt() == SIGINT ? "SIGINT" : "SIGTERM") +
-                     " at step " + std::to_string(step) + ", t = " + spate::text(time) +
-                     " s; the last state has been written";
+    s.stop_message = std::string("spate: interrupted by ") +
+                     (interrupt() == SIGINT    ? "SIGINT"
+                      : interrupt() == SIGUSR1 ? "SIGUSR1"
+                                               : "SIGTERM") +
+                     " at step " + std::to_string(step) + ", t = " + spate::text(time) + " s; " +
+                     (checkpoint.empty() ? "the last state has been written"
+                                         : "--restart " + checkpoint.string() + " goes on from there");
     s.stop_facts.step = step, s.stop_facts.time = time;
     code_ = 128 + interrupt();
 }
@@ -94,6 +98,13 @@ void Frame::Talk::opening(Summary const& s) const
     std::printf("%s: %s = %zu particles\n", s.scene.c_str(), of.c_str(), s.total());
     for (auto const& [role, name] : s.composition) std::printf("  %-12s %s\n", role.c_str(), name.c_str());
     std::printf("  %-12s %d\n", "threads", s.threads);
+    std::fflush(stdout);
+}
+
+void Frame::Talk::going_on(std::filesystem::path const& checkpoint, std::int64_t step, double time) const
+{
+    if (quiet) return;
+    std::printf("going on from %s: step %lld, t = %.6g s\n", checkpoint.c_str(), static_cast<long long>(step), time);
     std::fflush(stdout);
 }
 

@@ -26,6 +26,8 @@ struct Options {
     int cell = 0;                                                  ///< ranges along a cell's edge; 0: by dimension
     std::uint64_t seed = 1;                                        ///< of random numbers
     std::string output = {};                                       ///< directory; empty: out/NAME
+    std::string checkpoint_every = "0";                            ///< steps, or a time by the clock: 500, 600s, 2h
+    std::string restart = {};                                      ///< checkpoint to go on from; empty: none
     bool quiet = false;
 };
 

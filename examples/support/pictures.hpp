@@ -28,6 +28,12 @@ public:
     }
     void end(auto& scene) { draw(scene, file()); }
     [[nodiscard]] std::filesystem::path file() const;
+    /// What a restart needs: f(name, number).
+    void notes(auto const& f)
+    {
+        every_.notes("pictures", f);
+        f("pictures_count", count_);
+    }
 
 private:
     /// The ball that a particle fills: a grain's own radius, else that of the volume m/rho0.

@@ -86,23 +86,37 @@ template <class Scene>
     return cloud;
 }
 
-/// An output of Simulation::run. A series has write(cloud), which returns the file, and times() of what it has written.
+/// An output of Simulation::run. A series has write(cloud), which returns the file, times() of what it has
+/// written, and go_on_from(times): the next one follows these.
 template <class Series>
 class SnapshotsIn {
 public:
     /// \param every  interval between two snapshots [s]; 0: the last state only
-    SnapshotsIn(Series series, double every) : series_(std::move(series)), interval_(every), every_(every)
+    SnapshotsIn(Series series, double every)
+        : series_(std::move(series)), interval_(every), every_(every), even_times_(series_.times())
     {
         require_non_negative("Snapshots.every", every, "s");
     }
-    void begin(auto& scene) { step(scene); }
+    void begin(auto& scene)
+    {
+        series_.go_on_from(even_times_), written_ = even_written_;
+        step(scene);
+    }
     void step(auto& scene)
     {
-        if (interval_ > 0 && every_.due(scene.time())) write(scene);
+        if (interval_ <= 0 || !every_.due(scene.time())) return;
+        write(scene);
+        even_written_ = written_, even_times_ = series_.times();
     }
     void end(auto& scene)
     {
         if (written_ != scene.steps()) write(scene);
+    }
+    /// What a restart needs: f(name, numbers).
+    void notes(auto const& f)
+    {
+        every_.notes("snapshots", f);
+        f("snapshots_written", even_written_), f("snapshots_times", even_times_);
     }
     std::filesystem::path const& last() const { return last_; }
     std::size_t count() const { return series_.times().size(); }
@@ -119,7 +133,8 @@ private:
     double interval_; ///< [s]
     detail::Every every_;
     std::filesystem::path last_;
-    std::int64_t written_ = -1; ///< step of the last one
+    std::int64_t written_ = -1, even_written_ = -1; ///< step of the last one; of the last but that of the end
+    std::vector<double> even_times_; ///< of all but that of the end, which a run that goes on writes over
 };
 
 } // namespace spate::io

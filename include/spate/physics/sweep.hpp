@@ -51,10 +51,10 @@ namespace detail {
 template <Mask terms, std::size_t t>
 inline constexpr bool picked = ((terms >> t) & 1) != 0;
 
-/// One term on one pack of pairs; `kept` is the memory of the pairs.
-template <class Ri, class Ui, class Rj, class Uj, class A, class Pair, class T, class K = void>
-[[gnu::always_inline]] inline void apply(T const& term, Ri const& ri, Ui const& ui, Rj const& rj, Uj const& uj, A& sums,
-                                         Pair const& ij, K* kept = nullptr)
+/// f(i, j): a pair as the term T may see it; `kept` is the memory of the pair.
+template <class T, class Ri, class Ui, class Rj, class Uj, class A, class Pair, class K>
+[[gnu::always_inline]] inline void with_views(Ri const& ri, Ui const& ui, Rj const& rj, Uj const& uj, A& sums,
+                                              Pair const& ij, K* kept, auto const& f)
 {
     using Readable_i = std::remove_cvref_t<decltype(reads_i<T>())>;
     using Readable_j = std::remove_cvref_t<decltype(reads_j<T>())>;
@@ -66,12 +66,20 @@ template <class Ri, class Ui, class Rj, class Uj, class A, class Pair, class T, 
     if constexpr (requires { ij.mask; }) {
         using M = std::remove_cvref_t<decltype(ij.mask)>;
         View<Readable_i, Addable, Ri, Ui, A, M, H> i{ri, ui, &sums, ij.mask, memory};
-        term(i, j, ij);
+        f(i, j);
     }
     else {
         View<Readable_i, Addable, Ri, Ui, A, Always, H> i{ri, ui, &sums, {}, memory};
-        term(i, j, ij);
+        f(i, j);
     }
+}
+/// One term on one pack of pairs.
+template <class Ri, class Ui, class Rj, class Uj, class A, class Pair, class T, class K = void>
+[[gnu::always_inline]] inline void apply(T const& term, Ri const& ri, Ui const& ui, Rj const& rj, Uj const& uj, A& sums,
+                                         Pair const& ij, K* kept = nullptr)
+{
+    with_views<T>(
+        ri, ui, rj, uj, sums, ij, kept, [&](auto& i, auto const& j) __attribute__((always_inline)) { term(i, j, ij); });
 }
 template <Mask terms, class Ri, class Ui, class Rj, class Uj, class A, class Pair, class... T, std::size_t... t,
           class K = void>
@@ -132,12 +140,36 @@ private:
         (one(F{}), ...);
     }
 };
+/// A position in two parts: near ones differ exactly by their heads, and then by their tails.
+template <class X>
+struct Split {
+    X const &head, &tail;
+    [[gnu::always_inline]] friend X operator-(Split const& a, Split const& b)
+    {
+        return (a.head - b.head) + (a.tail - b.tail);
+    }
+};
+/// One particle as the interaction sees it, with a position in two parts.
+template <class S, class R, class U>
+struct SplitView {
+    View<S, Fields<>, R, U, void> whole;
+    template <Field F>
+    [[gnu::always_inline]] decltype(auto) operator[](F f) const
+    {
+        if constexpr (std::same_as<F, Position>) return Split{whole.record[position], whole.record[position_tail]};
+        else return whole[f];
+    }
+};
 template <class I, class V, class Ri, class Ui, class Rj, class Uj>
 [[gnu::always_inline]] inline auto pair_of(I const& interaction, Ri const& ri, Ui const& ui, Rj const& rj, Uj const& uj)
 {
     using S = std::remove_cv_t<decltype(I::reads)>;
-    return interaction.template pair<V>(View<S, Fields<>, Ri, Ui, void>{ri, ui, nullptr, {}},
-                                        View<S, Fields<>, Rj, Uj, void>{rj, uj, nullptr, {}});
+    if constexpr (Ri::template has<PositionTail>)
+        return interaction.template pair<V>(SplitView<S, Ri, Ui>{{ri, ui, nullptr, {}}},
+                                            SplitView<S, Rj, Uj>{{rj, uj, nullptr, {}}});
+    else
+        return interaction.template pair<V>(View<S, Fields<>, Ri, Ui, void>{ri, ui, nullptr, {}},
+                                            View<S, Fields<>, Rj, Uj, void>{rj, uj, nullptr, {}});
 }
 /// Whether an interaction that tells touching pairs apart, touch(i, j), finds any among W.
 template <class I, class Ri, class Ui, class Rj, class Uj>
@@ -230,6 +262,7 @@ inline constexpr bool short_lists = requires
 /// program; a call in the loop would send its sums through memory.
 /// \tparam Sums     the fields that the terms add to
 /// \tparam Target   the fields that they read of the target
+/// \tparam V        what pairs compute with
 template <class V, Mask terms, class Sums, class Target, class I, class Tuple, class P, class... Src>
 [[gnu::flatten]] void sweep_cell(I const& of_scene, Tuple const& terms_of_scene, P& particles,
                                  Binning<P::dim> const& at, std::size_t cell, Src const&... source)
