@@ -148,11 +148,11 @@ TEST(Rolling, BeginsWhenFrictionHasSpentTheSlip)
 }
 
 /// N discs in a periodic box at a fraction, at random speeds of 0.5 m/s.
-template <class... T>
+template <class I = Leapfrog, class... T>
 auto gas(int side, double fraction, T... term)
 {
     const double r = 0.01, pitch = std::sqrt(pi * r * r / fraction);
-    Simulation sim(dem<2>({.mass = 0.1, .radius = r}, LinearSpring{.k = 1e5}, term...), Leapfrog{},
+    Simulation sim(dem<2>({.mass = 0.1, .radius = r}, LinearSpring{.k = 1e5}, term...), I{},
                    Periodic(Box<2>{{}, {{side * pitch, side * pitch}}}), Serial{}, Double{}, NoWatch{});
     oracle::Dice dice(17);
     for (int n = 0; n < side * side; ++n) {
@@ -187,12 +187,13 @@ TEST(LongGas, OfElasticDiscsKeepsItsEnergy)
     std::printf("energy walks %.2e per root second; slope %.2e +- %.2e per second\n", walk, slope, of_a_walk);
 }
 // Haff (1983): T = T0/(1 + t/tau)^2, 1/tau = (1 - e^2) omega_E/(2 d), omega_E = 2 sqrt(pi) n sigma chi sqrt(T/m), in the
-// homogeneous phase, t <= 5 tau: within 5 % (numerics V54). chi of Verlet & Levesque (1982): (1 - 7 phi/16)/(1 - phi)^2.
+// homogeneous phase, t <= 5 tau: within 5 % (numerics V54). The midpoint method, since e of a dashpot is of first order under
+// leapfrog. chi of Verlet & Levesque (1982): (1 - 7 phi/16)/(1 - phi)^2.
 TEST(LongGas, OfInelasticDiscsCoolsByHaff)
 {
     const double e = 0.9, fraction = 0.1, m = 0.1, r = 0.01;
-    auto sim = gas(64, fraction, Dashpot{.e = e});
-    auto elastic = gas(64, fraction); // its velocities mix first: the law is for a Maxwellian
+    auto sim = gas<RungeKutta2>(32, fraction, Dashpot{.e = e});
+    auto elastic = gas(32, fraction); // its velocities mix first: the law is for a Maxwellian
     elastic.run({.until = 1.5, .dt = 8e-5});
     auto& p = sim.particles();
     for (std::size_t i = 0; i < p.size(); ++i) {
@@ -211,7 +212,7 @@ TEST(LongGas, OfInelasticDiscsCoolsByHaff)
     const double rate = 2 * std::sqrt(pi) * n * 2 * r * chi * std::sqrt(t0 / m), tau = 4 / ((1 - e * e) * rate);
     double furthest = 0;
     for (int k = 1; k <= 20; ++k) {
-        sim.run({.until = 5 * tau * k / 20, .dt = 8e-5});
+        sim.run({.until = 5 * tau * k / 20, .dt = 4e-5});
         const double law = t0 / std::pow(1 + sim.time() / tau, 2);
         furthest = std::max(furthest, std::abs(temperature() / law - 1));
     }
