@@ -1231,6 +1231,7 @@ private:
         else if constexpr (from_1 != 0) run_with(source<s, 1, from_1>());
         else run_with();
     }
+public:
     /// What the terms of s <- q keep of a pair.
     template <int s, int q>
     static constexpr auto kept()
@@ -1247,6 +1248,8 @@ private:
     }
     template <int s, int q>
     static constexpr int kept_values = Layout<dim, Set<kept<s, q>()>>::count;
+
+private:
     /// f(s, q, memory set aside, memory by cell) for each pair of species of which something is kept.
     void each_memory(auto const& f)
     {
