@@ -18,6 +18,7 @@
 
 #include "spate/core/errors.hpp"
 #include "spate/core/fields.hpp"
+#include "spate/core/together.hpp"
 #include "spate/io/detail/every.hpp"
 #include "spate/io/detail/replace_file.hpp"
 #include "spate/io/output_error.hpp"
@@ -83,11 +84,13 @@ public:
     {
         const std::string head = heading(scene);
         const bool goes_on = so_far_.written >= 0;
-        if (goes_on) keep_rows(head);
-        errno = 0;
-        out_.open(tmp_, goes_on ? std::ios::app : std::ios::trunc);
+        by_one(party_of(scene), [&] {
+            if (goes_on) keep_rows(head);
+            errno = 0;
+            out_.open(tmp_, goes_on ? std::ios::app : std::ios::trunc);
+            if (!goes_on) line(head);
+        });
         if (goes_on) return;
-        line(head);
         write(scene);
         every_.due(scene.time());
     }
@@ -100,12 +103,14 @@ public:
         const SoFar even = so_far_;
         if (!scene.stopped() && so_far_.written != scene.steps()) write(scene);
         so_far_ = even; // a run that goes on would not have had the row of the end
-        out_.close();
-        if (!out_) throw OutputError(file_, errno);
-        std::error_code error;
-        std::filesystem::rename(tmp_, file_, error);
-        if (error) throw OutputError(file_, error.value());
-        detail::sync_directory(file_);
+        by_one(party_of(scene), [&] {
+            out_.close();
+            if (!out_) throw OutputError(file_, errno);
+            std::error_code error;
+            std::filesystem::rename(tmp_, file_, error);
+            if (error) throw OutputError(file_, error.value());
+            detail::sync_directory(file_);
+        });
     }
     std::filesystem::path const& file() const { return file_; }
     /// What a restart needs: f(name, number).
@@ -126,9 +131,9 @@ private:
     struct SoFar {
         double since = 0, at = 0;                    ///< times of the first and the last row [s]
         std::array<std::array<double, 2>, 3> wall{}; ///< by axis: force of the walls at the last row [N], impulse [N s]
-        double start = 0;                            ///< total energy of the first row, less what had come in before [J]
-        double moment = 0;                           ///< of mass that had entered before the first row [kg s]
-        std::int64_t written = -1;                   ///< step of the last row
+        double start = 0;          ///< total energy of the first row, less what had come in before [J]
+        double moment = 0;         ///< of mass that had entered before the first row [kg s]
+        std::int64_t written = -1; ///< step of the last row
     };
     /// The rows of this run up to the last one of which so_far_ knows, if they are there; else none.
     [[gnu::cold]] void keep_rows(std::string const& head) const
@@ -238,7 +243,7 @@ private:
         row.add(extremes.speed);
         if constexpr (has_density<Scene>) row.add(extremes.least_density), row.add(extremes.most_density);
         each_column([&](auto const& c) { row.add(c(scene)); });
-        line(row.text());
+        by_one(party_of(scene), [&] { line(row.text()); });
         so_far_.written = scene.steps();
     }
     [[gnu::cold]] void line(std::string const& text)
