@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <spate/core/together.hpp>
 #include <spate/io/ball.hpp>
 #include <spate/io/detail/every.hpp>
 #include <spate/physics/wcsph.hpp>
@@ -65,7 +66,7 @@ private:
                 balls.push_back(ball);
             }
         });
-        return balls;
+        return gathered(spate::party_of(scene), std::move(balls));
     }
     template <class Scene>
     [[gnu::cold]] void draw(Scene const& scene, std::filesystem::path const& file) const
@@ -73,7 +74,8 @@ private:
         double fastest = spate::io::Picture::automatic; // [m/s]
         if constexpr (spate::has_equation_of_state<std::remove_cvref_t<decltype(scene.physics())>>)
             fastest = spate::equation_of_state(scene.physics()).c0 / 10; // the flow that c0 was chosen for
-        write(file, scene.time(), Scene::dim, fastest, balls_of(scene));
+        const auto balls = balls_of(scene);
+        spate::by_one(spate::party_of(scene), [&] { write(file, scene.time(), Scene::dim, fastest, balls); });
     }
     /// NAME_000001.png, ...
     std::filesystem::path numbered();

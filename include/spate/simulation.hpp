@@ -115,6 +115,12 @@ public:
         std::size_t count = 1;
         for (auto k : n) count *= std::size_t(k);
         std::vector<Point> at;
+        // Each rank begins a part, unless the user's own start may count on all of them.
+        bool a_part = false;
+        if constexpr (!Engine::alone && (at_rest<Start> || std::same_as<Start, std::nullptr_t>))
+            a_part = system_.template owns_all<0>();
+        std::vector<std::uint32_t> numbers;
+        std::size_t placed = 0;
         for (std::size_t k = 0; k < count; ++k) {
             Point x;
             std::size_t rest = k;
@@ -125,16 +131,23 @@ public:
             }
             if constexpr (requires { system_.boundary().covers(x); })
                 if (system_.boundary().covers(x)) continue;
+            const std::size_t number = placed++;
+            if (a_part) {
+                if (!system_.starts_here(number)) continue;
+                numbers.push_back(std::uint32_t(number));
+            }
             at.push_back(x);
         }
-        p.resize(first + at.size());
+        if constexpr (Engine::alone) p.resize(first + at.size());
+        else if (a_part) system_.template adopt<0>(std::move(numbers), placed);
+        else p.resize(first + at.size());
         for (std::size_t k = 0; k < at.size(); ++k) {
             p.put(position, first + k, at[k]);
             begin(p, first + k, box, start);
         }
         if constexpr (Engine::species_count == 2) wet_markers(box, start);
         prepare();
-        return at.size();
+        return placed;
     }
     template <int Other, class... Start>
     std::size_t fill(Box<Other> const&, double, Start...)
@@ -609,9 +622,16 @@ private:
             auto& p = system_.template species<1>().particles;
             std::vector<Point> x;
             std::vector<int> of;
-            system_.boundary().place(physics().interaction.range(),
-                                     [&](Point const& at, int k = 0) { x.push_back(at), of.push_back(k); });
-            p.resize(x.size());
+            std::vector<std::uint32_t> numbers;
+            std::size_t placed = 0;
+            system_.boundary().place(physics().interaction.range(), [&](Point const& at, int k = 0) {
+                const std::size_t number = placed++;
+                if (!system_.starts_here(number)) return;
+                x.push_back(at), of.push_back(k);
+                if constexpr (!Engine::alone) numbers.push_back(std::uint32_t(number));
+            });
+            if constexpr (Engine::alone) p.resize(x.size());
+            else system_.template adopt<1>(std::move(numbers), placed);
             for (std::size_t i = 0; i < x.size(); ++i) {
                 p.put(position, i, x[i]);
                 if constexpr (Engine::M::moves) p.put(rest_position, i, x[i]), p.put(part, i, of[i]);

@@ -18,6 +18,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <set>
 
 namespace spate {
 
@@ -96,6 +97,11 @@ public:
         std::size_t n = 0;
         each_species([&](auto s) { n += counted<s()>(); });
         return ranks().all(n, agree::Sum{});
+    }
+    template <int s>
+    [[nodiscard]] std::size_t total_of() const
+    {
+        return ranks().all(counted<s>(), agree::Sum{});
     }
     /// Of the particles here those that this rank counts where all ranks count: the first so many.
     template <int s>
@@ -629,12 +635,35 @@ public:
         make_room();
         forget_lists();
     }
+    /// Whether the k-th of new particles starts here: until shares are known, blocks go from rank to rank.
+    [[nodiscard]] bool starts_here([[maybe_unused]] std::size_t k) const
+    {
+        if constexpr (alone) return true;
+        else return k / 256 % std::size_t(ranks().count()) == std::size_t(ranks().rank());
+    }
+    /// Room for those of `total` new particles that start here; all others are started by other ranks.
+    template <int s>
+    void adopt(std::vector<std::uint32_t> numbers, std::size_t total)
+    {
+        auto& p = species<s>().particles;
+        for (auto& k : numbers) k += p.next_id();
+        p.append(numbers);
+        p.skip_ids(total);
+        parts_.own(s, p.size());
+    }
+    /// Whether all particles here are this rank's own.
+    template <int s>
+    [[nodiscard]] bool owns_all() const
+    {
+        return parts_.owned(s) == species<s>().particles.size();
+    }
     /// Of what all ranks have been given alike each keeps its own. \param cut  by new cuts, of like numbers of particles
     void distribute([[maybe_unused]] bool cut)
     {
         if constexpr (!alone) {
             if (cut) cut_by_number();
             go_home(false);
+            if (cut) check_cells();
         }
     }
     /// Tests move cells at every so many steps: cuts by a cost that has nothing to do with work.
@@ -1487,6 +1516,18 @@ private:
         return patch;
     }
     bool balance_due() { return backend_.balance.every > 0 && ++looks_ % backend_.balance.every == 0; }
+    [[gnu::cold]] void check_cells() const
+    {
+        std::set<Index<dim>> here;
+        each_species([&](auto s) {
+            auto const& p = species<s()>().particles;
+            for (std::size_t i = 0; i < p.size(); ++i) here.insert(cell_at(p, position, i));
+        });
+        const auto cells = ranks().all(std::int64_t(here.size()), agree::Sum{});
+        if (cells > 0 && cells < ranks().count())
+            throw BadInput("the number of ranks", std::to_string(ranks().count()),
+                           "at most that of occupied cells, " + std::to_string(cells) + "; smaller cells are more");
+    }
     /// Like shares of particles, before anything is known of what they cost.
     void cut_by_number()
     {
@@ -1502,10 +1543,6 @@ private:
         });
         std::vector<CellCost> cost;
         for (auto const& [key, n] : in_cell) cost.push_back({key, n});
-        const auto cells = ranks().all(std::int64_t(cost.size()), agree::Sum{});
-        if (cells > 0 && cells < ranks().count())
-            throw BadInput("the number of ranks", std::to_string(ranks().count()),
-                           "at most that of occupied cells, " + std::to_string(cells) + "; smaller cells are more");
         parts_.use(Shares<dim>::of_like_cost(std::move(cost), ranks()));
     }
     /// Like shares of what cells have cost since lists were built, if that pays.
