@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdio>
 #include <iostream>
+#include <numbers>
 
 #include <spate/core/errors.hpp>
 #include <spate/io/detail/replace_file.hpp>
@@ -100,6 +101,19 @@ void Frame::Talk::first_step(double dt, std::string_view criterion) const
 {
     if (quiet) return;
     std::printf("dt = %.4g s at the start, by the %s criterion\n", dt, std::string(criterion).c_str());
+    std::fflush(stdout);
+}
+
+void Frame::Talk::contact(char const* integrator, double omega, double dt, double growth, double error) const
+{
+    if (quiet) return;
+    const double time = std::numbers::pi / omega;
+    std::printf("contact time %.4g s, omega dt = %.4g, %.3g steps a contact: %s ", time, omega * dt, time / dt,
+                integrator);
+    if (growth > 0)
+        std::printf("multiplies the energy of a contact by %.5g\n", std::exp(2 * std::log1p(growth) * time / dt));
+    else if (omega * dt < 2) std::printf("keeps the energy of a contact within about %.2g %%\n", 100 * error);
+    else std::printf("is unstable: omega dt must be below 2\n");
     std::fflush(stdout);
 }
 

@@ -41,11 +41,18 @@ protected:
         void begin(auto const& scene) { warn(scene.report().warnings); }
         void step(auto const& scene)
         {
-            if (scene.report().steps == 1) first_step(scene.dt(), scene.criterion());
+            if (scene.report().steps == 1) {
+                first_step(scene.dt(), scene.criterion());
+                if (const double omega = scene.stiffness().contact_frequency; omega > 0)
+                    contact(scene.integrator().name, omega, scene.dt(), scene.integrator().growth(omega * scene.dt()),
+                            scene.integrator().energy_error(omega * scene.dt()));
+            }
             warn(scene.report().warnings);
         }
         void end(auto const& scene) { warn(scene.report().warnings); }
         void first_step(double dt, std::string_view criterion) const;
+        /// What the integrator makes of an undamped contact of angular frequency omega [1/s].
+        void contact(char const* integrator, double omega, double dt, double growth, double error) const;
         /// Warnings are errors in waiting: they are told even to the quiet.
         void warn(std::vector<std::string> const& all);
         void closing(Summary const& s, std::filesystem::path const& directory,

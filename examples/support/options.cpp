@@ -60,6 +60,10 @@ void CommandLine::number(std::string const& option, double& value, std::string c
 {
     with_unit(parser_->app.add_option(option, value, help), "[" + unit + "]");
 }
+void CommandLine::text(std::string const& option, std::string& value, std::string const& help, std::string const& what)
+{
+    parser_->app.add_option(option, value, help)->type_name(what);
+}
 void CommandLine::seed() { with_unit(parser_->app.add_option("--seed", options_.seed, "of the random numbers"), "N"); }
 
 void CommandLine::parse(int argc, char** argv)

@@ -44,6 +44,7 @@ public:
     void choice(std::string const& option, std::string& value, std::vector<std::string> const& words,
                 std::string const& help);
     void number(std::string const& option, double& value, std::string const& help, std::string const& unit);
+    void text(std::string const& option, std::string& value, std::string const& help, std::string const& what);
     /// Only where a scene draws random numbers.
     void seed();
     /// Throws Exit{0} after --help and Exit{2}, after one sentence, for what cannot be understood.

@@ -69,6 +69,7 @@ class Simulation {
 public:
     static constexpr int dim = P::dim;
     using Engine = System<P, B, Workers, Precision>;
+    static constexpr bool has_contacts = Set<Engine::M::wall_adds>::template contains<Acceleration>;
     using Point = Vec<dim, double>;
     using Mobile = typename Engine::template ParticlesOf<0>;
 
@@ -276,8 +277,9 @@ public:
         if constexpr (W::on)
             if (step_ % watch_.energy_every == 0) look_at_energy();
         system_.template phase<When::before_step>(step_, [] {}); // the lists are those of this step
+        move_contacts();
         integrator_.step(system_, dt_);
-        if constexpr (reflects) reflect();
+        if constexpr (Engine::reflects) reflect();
         system_.template phase<When::after_step>(step_, [&] { make_lists_current(); });
         time_ += dt_;
         ++step_;
@@ -301,6 +303,8 @@ public:
     auto& particles() { return system_.mobile(); }
     auto const& particles() const { return system_.mobile(); }
     Vec<dim, double> const& gravity() const { return g_; }
+    /// What bounds the step; known from the first step on.
+    Stiffness const& stiffness() const { return stiffness_; }
     /// Brings pressure and other derived fields up to date with the state.
     void refresh()
     {
@@ -340,7 +344,7 @@ public:
         return system_.sum([&](std::size_t i) { return p.at(mass, i) / p.at(density, i); });
     }
     /// Of the particles on the walls of markers [N]; derived fields are those of the last evaluation: refresh() before.
-    [[nodiscard]] Point wall_force() requires(Engine::species_count == 2) { return WallForce{}(*this); }
+    [[nodiscard]] Point wall_force() requires(Engine::species_count == 2 || has_contacts) { return WallForce{}(*this); }
     /// Whether something does work on the particles: walls that move, a force of the user, or gravity along a periodic axis,
     /// which has no potential to compare with.
     [[nodiscard]] bool driven() const
@@ -363,9 +367,6 @@ private:
                  (decltype((adds<X>() | writes<X>()) & Fields{acceleration, velocity})::size > 0)));
     }(static_cast<typename P::Terms const*>(nullptr));
     static constexpr bool needs_acceleration = has_equation_of_state<P> || I::ahead_acceleration > 0;
-
-    /// Walls that reflect what has gone through them.
-    static constexpr bool reflects = requires(B const b, Point x, Point v) { b.reflect(x, v, 0.0); };
 
     void before_step([[maybe_unused]] auto& output)
     {
@@ -528,23 +529,20 @@ private:
                 if (near.contains(p.at(position, i))) begin(p, i, box, start);
         }
     }
+    /// Unless the integrator does it itself, once positions have drifted.
     void reflect()
     {
-        auto& p = system_.mobile();
-        const std::size_t n = p.size();
-        std::atomic<bool> any = false, lost = false;
-        system_.backend().for_each((n + Engine::task - 1) / Engine::task, [&](std::size_t k) {
-            for (std::size_t i = k * Engine::task, end = std::min(n, (k + 1) * Engine::task); i < end; ++i) {
-                Point x = p.at(position, i), v = p.at(velocity, i);
-                const auto bounce = system_.boundary().reflect(x, v, radius_of(p, i));
-                if (bounce == B::Bounce::none) continue;
-                p.put(position, i, x), p.put(velocity, i, v);
-                any = true;
-                if (bounce == B::Bounce::too_many) lost = true;
-            }
+        if constexpr (!requires { I::reflects; })
+            if (system_.reflect()) system_.forget_kick_rates();
+        if (system_.lost()) stop_lost();
+    }
+    /// Walls of contact that move are, in this step, where they are when the integrator takes its last rates.
+    void move_contacts()
+    {
+        const double t = time_ + I::ahead_velocity * dt_;
+        detail::each_in(system_.terms(), [&](auto& term) {
+            if constexpr (requires { term.move_to(t); }) term.move_to(t);
         });
-        if (any) system_.forget_kick_rates();
-        if (lost) stop_lost();
     }
     static double radius_of([[maybe_unused]] auto const& p, [[maybe_unused]] std::size_t i)
     {
@@ -640,7 +638,12 @@ private:
     [[gnu::cold]] void begin_run(RunOptions const& o)
     {
         if (step_ > 0) return;
-        stiffness_ = stiffness_of(physics(), least(mass), least(radius));
+        const double m = least(mass);
+        stiffness_ = stiffness_of(physics(), m, least(radius));
+        detail::each_in(system_.terms(), [&](auto const& t) {
+            if constexpr (requires { t.pushes; })
+                stiffness_.contact_frequency = std::max(stiffness_.contact_frequency, t.contact_frequency(m));
+        });
         if (o.dt > 0) return;
         const TimeStep t = time_step(stiffness_, o.cfl, 0, std::sqrt(g_.squaredNorm()));
         require(std::isfinite(t.dt), "dt", o.dt, "above 0: the model has no criterion that bounds the step");

@@ -111,7 +111,7 @@ private:
         auto const& x = places.x;
         const std::size_t n = places.size;
         bins_of_cell_ = grid.bins_of_cell();
-        std::vector<std::uint64_t> key(n);
+        std::vector<std::uint64_t> key(n); // of the cell, then the number of the bin
         std::vector<std::int32_t> local(n), order(n);
         for (std::size_t i = 0; i < n; ++i) {
             Index<Dim> cell;
@@ -127,20 +127,22 @@ private:
         }
         find_cells(key);
         first_.assign(cells_.size() * std::size_t(bins_of_cell_) + 1, 0);
-        std::vector<std::size_t> at(n);
         std::uint64_t last = overflow;
         std::int32_t c = -1;
         for (std::size_t i = 0; i < n; ++i) {
             if (key[i] != last) c = find(key[i]), last = key[i];
-            at[i] = std::size_t(c) * std::size_t(bins_of_cell_) + std::size_t(local[i]);
-            ++first_[at[i] + 1];
+            key[i] = std::size_t(c) * std::size_t(bins_of_cell_) + std::size_t(local[i]);
+            ++first_[key[i] + 1];
         }
         for (std::size_t b = 1; b < first_.size(); ++b) first_[b] += first_[b - 1];
-        std::vector<std::int32_t> next(first_.begin(), first_.end() - 1);
-        for (std::size_t i = 0; i < n; ++i) order[std::size_t(next[at[i]]++)] = std::int32_t(i);
-        for (std::size_t b = 0; b + 1 < first_.size(); ++b)
-            std::sort(order.begin() + first_[b], order.begin() + first_[b + 1],
-                      [&](std::int32_t a, std::int32_t d) { return id[std::size_t(a)] < id[std::size_t(d)]; });
+        for (std::size_t i = 0; i < n; ++i) order[std::size_t(first_[key[i]]++)] = std::int32_t(i);
+        for (std::size_t b = first_.size() - 1; b > 0; --b) first_[b] = first_[b - 1]; // where bins began
+        first_[0] = 0;
+        auto earlier = [&](std::int32_t a, std::int32_t d) { return id[std::size_t(a)] < id[std::size_t(d)]; };
+        for (std::size_t b = 0; b + 1 < first_.size(); ++b) {
+            auto *const begin = order.data() + first_[b], *const end = order.data() + first_[b + 1];
+            if (end - begin > 1 && !std::is_sorted(begin, end, earlier)) std::sort(begin, end, earlier);
+        }
         return order;
     }
     /// The distinct keys, in order, and an open-addressing table from key to number.

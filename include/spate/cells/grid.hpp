@@ -33,6 +33,7 @@ public:
             const double size = edges.periodic(c) ? length / ranges_[k] : range;
             edge_[k] = c == 0 ? size / finer : size;
             length_[k] = edges.periodic(c) ? length : 0;
+            per_cell_[k] = 1.0 / bins_of_cell(c);
         }
     }
     [[nodiscard]] int finer() const { return finer_; }
@@ -76,8 +77,8 @@ public:
     /// The cell that holds a bin.
     [[nodiscard]] std::int32_t cell_of(int c, std::int32_t bin) const
     {
-        const std::int32_t m = bins_of_cell(c);
-        return bin >= 0 ? bin / m : -((-bin + m - 1) / m);
+        // Rounding is far from half a bin: exact, and a division of integers less.
+        return std::int32_t(std::floor((double(bin) + 0.5) * per_cell_[std::size_t(c)]));
     }
     /// x brought into [lower, upper) of a periodic axis.
     [[nodiscard]] double wrapped(int c, double x) const
@@ -91,7 +92,7 @@ public:
 private:
     Box<Dim> box_;
     int finer_, cell_;
-    std::array<double, std::size_t(Dim)> edge_{}, length_{};
+    std::array<double, std::size_t(Dim)> edge_{}, length_{}, per_cell_{};
     std::array<std::int32_t, std::size_t(Dim)> ranges_{};
 };
 

@@ -95,7 +95,8 @@ private:
               range2(float(range * range))
         {}
     };
-    /// Candidates of a row of bins of one cell, copied together: positions as float from the row's corner.
+    /// Candidates of a row of bins of one cell, copied together: positions as float from the row's corner; in the plane of
+    /// all rows of the cell, as what is near one row is near the next.
     struct Candidates {
         Array<float> x[std::size_t(Dim)];
         std::vector<std::int32_t> number, first; // first: of row r, bin b at r * (bins + 1) + b
@@ -144,6 +145,7 @@ private:
     }
 
     static constexpr std::size_t most_sources = 2;
+    static constexpr bool whole_cells = Dim == 2; ///< gathered at once; a cell of space would not stay in the cache
 
     template <class T>
     static void build_cell(std::size_t k, Places<Dim, T> const& target, Binning<Dim> const& at, Grid<Dim> const& grid,
@@ -168,6 +170,8 @@ private:
         }
         int count = 0;
         std::int32_t first = 0; // of the window
+        bool gathered = false;
+        const Ranges everywhere(range * (1 + skins.least() + beyond), range, grid);
         auto close_window = [&] {
             like_lengths_together(order, open[0].length, count, W);
             for (std::size_t q = 0; q < sources; ++q)
@@ -183,14 +187,18 @@ private:
             corner[0] = cell[0] * nx;
             if constexpr (Dim > 1) corner[1] = cell[1] * grid.bins_of_cell(1) + r % grid.bins_of_cell(1);
             if constexpr (Dim > 2) corner[2] = cell[2] * grid.bins_of_cell(2) + r / grid.bins_of_cell(1);
-            for (std::size_t q = 0; q < sources; ++q) {
-                gather(open[q].near, corner, from[q].places, from[q].bins, grid);
-                open[q].make_room(std::size_t(window), std::size_t(count));
+            if (!whole_cells || !gathered) {
+                if constexpr (whole_cells) corner[1] -= r;
+                for (std::size_t q = 0; q < sources; ++q) {
+                    gather(open[q].near, corner, from[q].places, from[q].bins, grid);
+                    open[q].make_room(std::size_t(window), std::size_t(count));
+                }
+                if constexpr (whole_cells) corner[1] += r;
+                gathered = true;
             }
-            const std::size_t patch = k * Skins<Dim>::patches_of_cell(grid) + std::size_t(r * grid.cell());
-            for (int b = 0, i = b0; b < grid.cell(); ++b) {
-                const Ranges ranges(range * (1 + skins.of(patch + std::size_t(b)) + beyond), range, grid);
-                for (const std::int32_t last = at.first(k, r * nx + (b + 1) * grid.finer()); i < last; ++i) {
+            const int row = whole_cells ? r : 0; // of those gathered
+            auto targets = [&](std::int32_t i, std::int32_t last, Ranges const& ranges) {
+                for (; i < last; ++i) {
                     double x[std::size_t(Dim)];
                     for (int c = 0; c < Dim; ++c)
                         x[c] = double(target.x[std::size_t(c)][i]) - grid.corner(c, corner[std::size_t(c)]);
@@ -198,11 +206,22 @@ private:
                         auto& w = open[q];
                         w.length[std::size_t(count)] =
                             w.near.count == 0 ? 0
-                                              : select(w.near, x, grid, ranges, from[q].same ? i : -1,
+                                              : select(w.near, row, x, grid, ranges, from[q].same ? i : -1,
                                                        w.row.data() + std::size_t(count) * w.stride, lists[q]->pairs);
                     }
                     if (++count == window) close_window();
                 }
+            };
+            if (skins.uniform()) {
+                targets(b0, b1, everywhere);
+                continue;
+            }
+            const std::size_t patch = k * Skins<Dim>::patches_of_cell(grid) + std::size_t(r * grid.cell());
+            for (int b = 0, i = b0; b < grid.cell(); ++b) {
+                const Ranges ranges(range * (1 + skins.of(patch + std::size_t(b)) + beyond), range, grid);
+                const std::int32_t last = at.first(k, r * nx + (b + 1) * grid.finer());
+                targets(i, last, ranges);
+                i = last;
             }
         }
         if (count > 0) close_window();
@@ -212,8 +231,10 @@ private:
 
     /// Appends the neighbours of a target at x from the row's corner: of each row of bins, the stretch that the reach
     /// can touch, 16 candidates at a time.
-    static std::int32_t select(Candidates const& near, double const (&x)[std::size_t(Dim)], Grid<Dim> const& grid,
-                               Ranges const& ranges, std::int32_t self, std::int32_t* out, std::int64_t& within)
+    /// \param row  of the rows that were gathered
+    static std::int32_t select(Candidates const& near, int row, double const (&x)[std::size_t(Dim)],
+                               Grid<Dim> const& grid, Ranges const& ranges, std::int32_t self, std::int32_t* out,
+                               std::int64_t& within)
     {
         const int nx_near = grid.bins_of_cell(0) + 2 * grid.finer();
         constexpr int near_rows = Dim == 1 ? 1 : Dim == 2 ? 3 : 9;
@@ -232,14 +253,15 @@ private:
         for (int q = 0; q < near_rows; ++q)
             half[q] = ranges.reach2 - (across[1][q % 3] + across[2][Dim > 2 ? q / 3 : 1]);
         for (int q = 0; q < near_rows; ++q) {
-            const float bins = std::sqrt(std::max(half[q], 0.0f)) * per_bin + hair;
+            const float bins = grid.finer() == 1 ? 1 + hair : std::sqrt(std::max(half[q], 0.0f)) * per_bin + hair;
             from[q] = std::int32_t(std::max(at_bin - bins, 0.0f));
             to[q] = std::int32_t(std::min(at_bin + bins, last)) + 1;
         }
+        if constexpr (whole_cells) xi[1] = float(x[1] + row * grid.edge(1)); // candidates are from the cell's corner
         std::int32_t m = 0;
         for (int q = 0; q < near_rows; ++q) {
             if (half[q] <= 0) continue;
-            std::int32_t const* first = near.first.data() + q * (nx_near + 1);
+            std::int32_t const* first = near.first.data() + (row + q) * (nx_near + 1);
             const std::int32_t end = first[to[q]];
             for (std::int32_t j = first[from[q]]; j < end; j += 16) {
                 float const* xj[std::size_t(Dim)];
@@ -307,13 +329,14 @@ private:
                        Grid<Dim> const& grid)
     {
         const int reach_x = grid.finer(), nx = grid.bins_of_cell(0) + 2 * reach_x;
-        constexpr int near_rows = Dim == 1 ? 1 : Dim == 2 ? 3 : 9;
+        const int near_rows = Dim == 1 ? 1 : Dim == 2 ? grid.bins_of_cell(1) + 2 : 9;
         near.first.resize(std::size_t(near_rows * (nx + 1)));
         near.count = 0;
         for (int q = 0; q < near_rows; ++q) {
             Index<Dim> bin = corner;
-            if constexpr (Dim > 1) bin[1] += q % 3 - 1;
-            if constexpr (Dim > 2) bin[2] += q / 3 - 1;
+            if constexpr (Dim == 2) bin[1] += q - 1;
+            if constexpr (Dim == 3) bin[1] += q % 3 - 1;
+            if constexpr (Dim == 3) bin[2] += q / 3 - 1;
             int code = 0;
             bool inside = true;
             for (int c = 1, three = 3; c < Dim; ++c, three *= 3) inside = wrap(bin, c, three, code, grid) && inside;

@@ -16,6 +16,7 @@ struct Leapfrog {
     static constexpr bool saves = false;
     static constexpr double ahead_velocity = 1;       ///< rates are taken at positions up to x + this v dt ...
     static constexpr double ahead_acceleration = 0.5; ///< ... + this a dt^2: the force is taken at its end
+    static constexpr bool reflects = true;            ///< off elastic walls after the drift, before forces are taken
     static constexpr double imaginary_limit = 2;
     static constexpr double real_limit = 2;
     /// Bounded oscillation of the measured energy at z = omega dt, relative: of the shadow Hamiltonian.
@@ -35,6 +36,7 @@ struct Leapfrog {
             s.advance(s.kicked, dt / 2);
             s.advance(s.free, dt);
         }
+        if constexpr (s.reflects) s.reflect();
         s.rates(s.kicked);
         s.advance(s.kicked, dt / 2);
         s.keep_kick_rates();

@@ -36,7 +36,7 @@ Energy energy_of(S const& s, Eos const* eos, Vec<Dim, double> const& g)
         e.potential = s.sum([&](std::size_t i) { return -mass_of(i) * g.dot(p.at(position, i)); });
     if constexpr (!std::is_void_v<Eos> && Q::template has<Density>)
         e.internal = s.sum([&](std::size_t i) { return mass_of(i) * eos->energy_of(p.at(density, i)); });
-    else e.internal = s.pair_energy();
+    else e.internal = s.pair_energy() + s.wall_energy();
     if constexpr (Q::template has<AngularVelocity>)
         e.rotational = s.sum([&](std::size_t i) {
             const double r = p.at(radius, i);
@@ -57,6 +57,10 @@ struct Some {
     [[nodiscard]] double sum(auto const& f) const
     {
         return system.sum([&](std::size_t i) { return is[i] != 0 ? f(i) : 0.0; });
+    }
+    [[nodiscard]] double wall_energy() const
+    {
+        return system.wall_energy([&](std::size_t i) { return is[i] != 0; });
     }
     [[nodiscard]] double pair_energy() const
     {

@@ -46,7 +46,8 @@ constexpr auto only_given(Fields<F...>)
 } // namespace detail
 
 /// \tparam P  the physics    \tparam B  the boundary
-/// A boundary without markers says `static constexpr bool markers = false`; one with markers names their `uniform`
+/// A boundary without markers says `static constexpr bool markers = false`, and may bring `terms(physics)` that act on the
+/// particles; one with markers names their `uniform`
 /// fields, the `state` fields that they carry beside those that others read, and `terms(physics)`. It may show the
 /// terms of the physics other than they are, `own(terms)`; name `moves`: its markers follow a law; and name `given`
 /// fields of the markers that it sets itself, and no term of the physics.
@@ -60,7 +61,8 @@ struct Model {
     {
         if constexpr (requires { boundary.own(physics.terms); })
             return std::tuple_cat(boundary.own(physics.terms), boundary.terms(physics));
-        else if constexpr (markers) return std::tuple_cat(physics.terms, boundary.terms(physics));
+        else if constexpr (requires { boundary.terms(physics); })
+            return std::tuple_cat(physics.terms, boundary.terms(physics));
         else return physics.terms;
     }
     using Terms = decltype(terms_of(std::declval<P>(), std::declval<B>()));
@@ -76,6 +78,15 @@ struct Model {
     static constexpr int own_terms = int(std::tuple_size_v<typename P::Terms>);
     static constexpr int terms = int(std::tuple_size_v<Terms>);
     static constexpr int species = markers ? 2 : 1;
+
+    /// Fields to which walls of contact add.
+    static constexpr auto wall_adds = []<class... T>(std::tuple<T...> const*) {
+        auto one = []<class X>(X const*) {
+            if constexpr (requires { X::pushes; }) return adds<X>();
+            else return Fields<>{};
+        };
+        return (Fields<>{} | ... | one(static_cast<T const*>(nullptr)));
+    }(static_cast<Terms const*>(nullptr));
 
 private:
     template <class F>

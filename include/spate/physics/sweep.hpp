@@ -201,7 +201,7 @@ template <Mask terms, class V, class I, class Ri, class Ui, class A, class... T,
             using Tk = std::remove_cvref_t<decltype(term)>;
             if constexpr (!PairTerm<Tk>) {
                 using Readable = std::remove_cvref_t<decltype(reads_i<Tk>())>;
-                using Addable = std::remove_cvref_t<decltype(adds<Tk>())>;
+                using Addable = std::remove_cvref_t<decltype(adds<Tk>() | writes<Tk>())>;
                 View<Readable, Addable, Ri, Ui, A> i{ri, ui, &sums, {}};
                 term(i);
             }

@@ -11,6 +11,7 @@
 #include "spate/physics/model.hpp"
 #include "spate/physics/sweep.hpp"
 
+#include <atomic>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -26,6 +27,9 @@ public:
     static constexpr int dim = M::dim;
     static constexpr int species_count = M::species;
     static constexpr std::size_t task = 2048; ///< particles in a task of a pass; a multiple of every pack
+
+    /// Whether walls reflect what has gone through them.
+    static constexpr bool reflects = requires(B const b, Vec<dim, double> x) { b.reflect(x, x, 0.0); };
 
     /// Whether any term looks at neighbours.
     static constexpr bool any_pairs =
@@ -182,7 +186,9 @@ public:
             const double side = e.most_move[c] - e.least_move[c] + t * (e.most_velocity[c] - e.least_velocity[c]);
             diagonal2 += side * side;
         }
-        const double pair = std::sqrt(diagonal2) + 2 * t2 * e.acceleration;
+        double apart = std::sqrt(diagonal2);
+        if constexpr (!M::markers) apart = std::min(apart, 2 * (e.moved + t * e.speed)); // two that meet head-on
+        const double pair = apart + 2 * t2 * e.acceleration;
         double marker = M::markers ? e.moved + t * e.speed + t2 * e.acceleration : 0;
         if constexpr (M::moves) marker += e.wall_moved + t * e.wall_speed;
         return pair > marker ? pair : marker;
@@ -355,27 +361,8 @@ public:
         ExactSum total;
         if constexpr (M::planner.meet(0, 0) && has_pair_energy) {
             std::mutex lock;
-            auto const& images = species<0>().bins.images();
-            auto const& of_scene = this->template lists<0, 0>();
-            const std::size_t n = mobile().size();
-            constexpr auto W = std::size_t(width<V>);
             backend_.for_each(species<0>().bins.cells(), [&](std::size_t cell) {
-                auto const& lists = of_scene.of_cell(cell);
-                const auto first = std::size_t(species<0>().bins.begin(cell));
-                ExactSum mine;
-                for (std::size_t block = 0; block + 1 < lists.begin.size(); ++block)
-                    for (std::size_t lane = 0; lane < W; ++lane) {
-                        const std::size_t i = first + std::size_t(lists.target[block * W + lane]);
-                        for (auto row = std::size_t(lists.begin[block]); row < std::size_t(lists.begin[block + 1]);
-                             ++row) {
-                            const std::size_t j = of_scene.number(lists.index[row * W + lane]);
-                            if (j == n) break; // the list of i ends here
-                            const std::size_t of_j = j < n ? j : std::size_t(images.of[j - n - 1]);
-                            if (const double part = share(i, of_j); part > 0)
-                                add_pair_energy(mine, part, cell, row, lane, i, of_j,
-                                                j < n ? 0 : images.code[j - n - 1]);
-                        }
-                    }
+                const ExactSum mine = pair_energy_of(cell, share);
                 const std::lock_guard hold(lock);
                 total += mine;
             });
@@ -398,6 +385,69 @@ public:
         });
         return total;
     }
+    /// The sum of what the mobile particles store in walls that they touch, wall_energy(i) of a term [J].
+    [[nodiscard]] double wall_energy() const
+    {
+        return wall_energy([](std::size_t) { return true; });
+    }
+    /// The same of the particles that count.
+    [[nodiscard]] double wall_energy([[maybe_unused]] auto const& counts) const
+    {
+        constexpr bool any = []<class... X>(std::tuple<X...> const*) {
+            return (false || ... || requires { X::pushes; });
+        }(static_cast<typename M::Terms const*>(nullptr));
+        if constexpr (any)
+            return sum([&](std::size_t i) {
+                double e = 0;
+                if (!counts(i)) return e;
+                detail::each_in(terms_, [&](auto const& t) {
+                    if constexpr (requires { t.wall_energy(AsDouble{mobile(), i}); })
+                        e += t.wall_energy(AsDouble{mobile(), i});
+                });
+                return e;
+            });
+        else return 0;
+    }
+    /// What terms of a boundary without markers do to the particles: f(i, sums) with all that they add to particle i.
+    void wall_sums(auto const& f) const
+    {
+        using Sums = Record<dim, double, Set<(Fields<>{} | M::wall_adds)>>;
+        auto terms = terms_;
+        carry_at_walls(terms, Carry{due_});
+        for (std::size_t i = 0; i < mobile().size(); ++i) {
+            Sums sums;
+            clear(sums);
+            Pushing<Sums> view{{mobile(), i}, sums};
+            detail::each_in(terms, [&]<class X>(X const& t) {
+                if constexpr (requires { X::pushes; }) t(view);
+            });
+            f(i, sums);
+        }
+    }
+    /// Sends back what has gone through elastic walls. Returns whether any has.
+    bool reflect() requires(reflects)
+    {
+        auto& p = mobile();
+        std::atomic<bool> any = false, lost = false;
+        stretches<0>([&](std::size_t first, std::size_t last) {
+            constexpr auto W = std::size_t(width<V>);
+            for (std::size_t k = first; k < last; k += W) {
+                if (!boundary_.any_beyond(p.template load_at<V>(position, k), radius_at<V>(k))) continue;
+                for (std::size_t i = k; i < std::min(last, k + W); ++i) {
+                    Vec<dim, double> x = p.at(position, i), v = p.at(velocity, i);
+                    const auto bounce = boundary_.reflect(x, v, radius_at<double>(i));
+                    if (bounce == B::Bounce::none) continue;
+                    p.put(position, i, x), p.put(velocity, i, v);
+                    any = true;
+                    if (bounce == B::Bounce::too_many) lost = true;
+                }
+            }
+        });
+        lost_ = lost_ || lost;
+        return any;
+    }
+    /// Whether a particle bounced too often within one step.
+    [[nodiscard]] bool lost() const { return lost_; }
     /// Bytes of all that is kept for the particles: columns, records, lists, bins.
     [[nodiscard, gnu::cold]] std::size_t bytes() const
     {
@@ -514,6 +564,34 @@ private:
     static constexpr bool has_pair_energy = []<class... X>(std::tuple<X...> const*) {
         return (false || ... || stores_energy<X>);
     }(static_cast<typename M::Terms const*>(nullptr));
+    /// Of the targets in a cell: what is out of range is passed over.
+    [[nodiscard]] ExactSum pair_energy_of(std::size_t cell, auto const& share) const
+    {
+        auto const& p = mobile();
+        auto const& bins = species<0>().bins;
+        auto const& images = bins.images();
+        auto const& lists = this->template lists<0, 0>().of_cell(cell);
+        constexpr auto W = std::size_t(width<V>);
+        constexpr auto stride = std::uint32_t(Layout<dim, Set<M::template record<0>()>>::stride);
+        const std::size_t n = p.size(), first = std::size_t(bins.begin(cell));
+        const double range2 = physics_.interaction.range() * physics_.interaction.range();
+        ExactSum sum;
+        for (std::size_t block = 0; block + 1 < lists.begin.size(); ++block)
+            for (auto row = std::size_t(lists.begin[block]); row < std::size_t(lists.begin[block + 1]); ++row)
+                for (std::size_t lane = 0; lane < W; ++lane) {
+                    const std::size_t j = std::uint32_t(lists.index[row * W + lane]) / stride;
+                    if (j == n) continue;
+                    const std::size_t i = first + std::size_t(lists.target[block * W + lane]);
+                    const std::size_t of = j < n ? j : std::size_t(images.of[j - n - 1]);
+                    Vec<dim, double> x = p.at(position, i) - p.at(position, of);
+                    if (j > n) x -= shift_of(images.code[j - n - 1], grid_);
+                    if (x.squaredNorm() > range2 * (1 + 1e-6)) continue;
+                    const double part = share(i, of);
+                    if (part > 0)
+                        add_pair_energy(sum, part, cell, row, lane, i, of, j > n ? images.code[j - n - 1] : 0);
+                }
+        return sum;
+    }
     /// The exact sum of what `fill` writes, a stretch of particles at a time; compiled once for all that is summed.
     double sum_of(std::function<void(std::size_t, std::size_t, double*)> const& fill) const
     {
@@ -611,6 +689,40 @@ private:
             return (Interaction::reads | ... | one(static_cast<X const*>(nullptr)));
         }(static_cast<typename M::Terms const*>(nullptr));
     }
+    /// Tells terms that keep something of contacts with walls what a sweep does with it.
+    static void carry_at_walls(typename M::Terms& terms, Carry const& carry)
+    {
+        auto one = [&](auto& t) {
+            if constexpr (requires { t.carry(0.0, true, 1.0); }) t.carry(carry.elapsed, carry.keep, carry.reach);
+        };
+        std::apply([&](auto&... t) { (one(t), ...); }, terms);
+    }
+    template <class X>
+    [[nodiscard]] X radius_at(std::size_t i) const
+    {
+        if constexpr (!ParticlesOf<0>::template has<Radius>) return X(0);
+        else if constexpr (std::same_as<X, double>) return mobile().at(radius, i);
+        else return mobile().template load_at<X>(radius, i);
+    }
+    /// A particle as a term that computes in double reads it.
+    struct AsDouble {
+        ParticlesOf<0> const& particles;
+        std::size_t i;
+        auto operator[](auto f) const { return particles.at(f, i); }
+    };
+    /// The same, with sums of its own to add to.
+    template <class Sums>
+    struct Pushing {
+        static constexpr bool only_shown = true;
+        AsDouble particle;
+        Sums& sums;
+        template <Field F>
+        decltype(auto) operator[](F f) const
+        {
+            if constexpr (Sums::template has<F>) return (sums[f]);
+            else return particle[f];
+        }
+    };
     static auto double_record(auto const& p, std::size_t i)
     {
         Record<dim, double, Set<(read_for_energy() & ParticlesOf<0>::fields)>> r;
@@ -654,6 +766,13 @@ private:
         Mask m = 0;
         for (int t = 0; t < M::terms; ++t)
             if (((terms >> t) & 1) != 0) m |= M::planner.term[std::size_t(t)].adds;
+        return m;
+    }
+    static constexpr Mask written(Mask terms)
+    {
+        Mask m = 0;
+        for (int t = 0; t < M::terms; ++t)
+            if (((terms >> t) & 1) != 0) m |= M::planner.term[std::size_t(t)].writes;
         return m;
     }
     static constexpr Mask read_of_target(Mask terms, int s)
@@ -811,11 +930,12 @@ private:
     template <int s, Mask terms, Mask allowed>
     void sweep()
     {
+        if constexpr (s == 0 && (allowed & ~Mask(3)) != 0) carry_at_walls(terms_, carry_.value_or(Carry{due_}));
         constexpr Mask from_0 = (allowed & 1) != 0 ? reading(terms, s, 0) : 0;
         constexpr Mask from_1 = species_count == 2 && (allowed & 2) != 0 ? reading(terms, s, 1) : 0;
         auto run_with = [&](auto const&... source) {
             auto& x = species<s>();
-            using Sums = decltype(M::template fields<added(terms)>());
+            using Sums = decltype(M::template fields<added(terms) | written(terms)>());
             using Target = decltype(M::template fields<read_of_target(terms, s)>());
             constexpr Mask itself = (allowed >> s) & 1 ? terms : Mask(0);
             backend_.for_each(x.bins.cells(), [&](std::size_t cell) {
@@ -989,7 +1109,7 @@ private:
     typename AllMemory<std::make_integer_sequence<int, species_count * species_count>>::type aside_;
     std::array<std::vector<Array<T>>, std::size_t(species_count* species_count)> memory_; ///< of pairs, by cell
     LocalSkins<dim, species_count> skins_;
-    bool have_lists_ = false, sorted_markers_ = false, kick_rates_ = false;
+    bool have_lists_ = false, sorted_markers_ = false, kick_rates_ = false, lost_ = false;
     std::optional<Carry> carry_; ///< of sweeps for rates; to others what is kept of pairs is only shown
     double due_ = 0, moved_ = 0; ///< time since what is kept of pairs was kept, since the step was saved [s]
     bool trial_ = false;         ///< between save() and advance_saved()
