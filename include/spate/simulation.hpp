@@ -17,6 +17,7 @@
 #include "spate/physics/system.hpp"
 #include "spate/physics/time_step.hpp"
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <numbers>

@@ -503,10 +503,15 @@ public:
     /// The sum of that.
     [[nodiscard]] double wall_energy() const
     {
+        return wall_energy([](std::size_t) { return true; });
+    }
+    /// The same of the particles that count.
+    [[nodiscard]] double wall_energy([[maybe_unused]] auto const& counts) const
+    {
         constexpr bool any = []<class... X>(std::tuple<X...> const*) {
             return (false || ... || requires { X::pushes; });
         }(static_cast<typename M::Terms const*>(nullptr));
-        if constexpr (any) return sum([&](std::size_t i) { return wall_energy_of(i); });
+        if constexpr (any) return sum([&](std::size_t i) { return counts(i) ? wall_energy_of(i) : 0.0; });
         else return 0;
     }
     /// What terms of a boundary without markers do to the particles: f(i, sums) with all that they add to particle i.
@@ -531,7 +536,7 @@ public:
         auto& p = mobile();
         std::atomic<bool> any = false, lost = false;
         stretches<0>([&](std::size_t first, std::size_t last) {
-            constexpr auto W = std::size_t(width<PairV>);
+            constexpr auto W = std::size_t(width<V>);
             for (std::size_t k = first; k < last; k += W) {
                 if (!boundary_.any_beyond(p.template load_at<V>(position, k), radius_at<V>(k))) continue;
                 for (std::size_t i = k; i < std::min(last, k + W); ++i) {
