@@ -77,10 +77,9 @@ inline void check_header(State const& state, std::span<std::byte const> file)
                                  &size, &sum);
     if (read < 1) state.refuse("no checkpoint: it does not begin like one");
     if (version != checkpoint_version)
-        state.refuse("of version " + std::to_string(version) + ", and this program reads version " +
-                     std::to_string(checkpoint_version));
+        state.refuse("of version " + text(version) + ", and this program reads version " + text(checkpoint_version));
     if (file.size() < checkpoint_header || (read >= 2 && file.size() < size))
-        state.refuse("cut off after " + std::to_string(file.size()) + " bytes");
+        state.refuse("cut off after " + text(double(file.size())) + " bytes");
     const auto due = header_of(version, size, sum);
     if (read != 3 || file.size() != size || std::memcmp(due.data(), head.data(), due.size()) != 0 ||
         checksum(file.subspan(checkpoint_header)) != sum)
