@@ -69,8 +69,8 @@ inline std::array<char, checkpoint_header> header_of(int version, std::uint64_t 
 /// Refuses bytes that are not those which were written.
 inline void check_header(State const& state, std::span<std::byte const> file)
 {
-    std::string head(std::min(file.size(), checkpoint_header), '\0');
-    std::memcpy(head.data(), file.data(), head.size());
+    std::string head;
+    for (const std::byte b : file.first(std::min(file.size(), checkpoint_header))) head += static_cast<char>(b);
     int version = -1;
     unsigned long long size = 0, sum = 0;
     const int read = std::sscanf(head.c_str(), "spate checkpoint\nversion %9d\nbytes %19llu\nchecksum %16llx", &version,
