@@ -39,6 +39,7 @@ CommandLine::CommandLine(std::string const& name, std::string const& about, Opti
               "[s]");
     with_unit(app.add_option("--picture-every", o.picture_every, "between two pictures; 0: the last state only"),
               "[s]");
+    choice("--colour", o.colour, {"speed", "pressure"}, "of the particles in pictures");
     app.add_flag("--quiet", o.quiet, "print nothing but errors");
 }
 CommandLine::~CommandLine() = default;

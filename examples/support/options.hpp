@@ -26,6 +26,7 @@ struct Options {
     int cell = 0;                                                  ///< ranges along a cell's edge; 0: by dimension
     std::uint64_t seed = 1;                                        ///< of random numbers
     std::string output = {};                                       ///< directory; empty: out/NAME
+    std::string colour = "speed";                                  ///< of pictures: speed or pressure
     bool quiet = false;
 };
 
