@@ -202,7 +202,10 @@ TYPED_TEST(StillWaterOn, HasTheExactPressure)
     const Worst w = watch(s, H / n, 2);
     tell(this->name("2D, H/dx 50, short"), w);
     this->expect(w, this->gate);
-    models::known_gap(std::string("V19 floor ") + TypeParam::name, w.floor);
+    if (std::same_as<TypeParam, ByContinuity>) {
+        EXPECT_LE(w.floor, 0.01);
+    }
+    else models::known_gap(std::string("V19 floor ") + TypeParam::name, w.floor);
 }
 /// In 3D with walls on all sides, and a kernel whose gradient is true on its lattice (to 0.06 %; the cubic spline's at 1.2 dx
 /// is too small by 1.8 %).
