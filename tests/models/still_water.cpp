@@ -218,7 +218,9 @@ TYPED_TEST(StillWaterOn, HasTheExactPressureIn3D)
     tell(this->name("3D, H/dx 20, short"), w);
     this->expect(w, this->gate);
     if (std::same_as<TypeParam, Extrapolated>) models::known_gap("V19 floor extrapolated 3D", w.floor);
-    else EXPECT_LE(w.floor, 0.01);
+    else {
+        EXPECT_LE(w.floor, 0.01);
+    }
 }
 /// The kernel of the other free-surface cases, in 3D.
 TEST(StillWater, HasTheExactPressureIn3DWithTheCubicSpline)
@@ -246,7 +248,9 @@ TYPED_TEST(LongStillWaterOn, HasTheExactPressureIn3D)
     tell(this->name("3D, H/dx 50, short"), w);
     this->expect(w, this->gate);
     if (std::same_as<TypeParam, Extrapolated>) models::known_gap("V19 floor extrapolated 3D H/dx 50", w.floor);
-    else EXPECT_LE(w.floor, 0.01);
+    else {
+        EXPECT_LE(w.floor, 0.01);
+    }
 }
 /// The same gates for 20 sqrt(H/g).
 TYPED_TEST(LongStillWaterOn, HasTheExactPressureForTwentyUnits)
