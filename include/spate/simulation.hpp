@@ -209,17 +209,19 @@ public:
         look(e);
         choose_dt(o, e);
         if constexpr (Engine::M::moves) e |= move_markers(dt_);
+        bool outrun = false;
         if (stale(e)) {
             if constexpr (W::on)
                 stop_if_outside(system_.mobile(), system_.boundary(), physics().interaction.range(), step_, time_);
             rebuild();
             if (stale(e.unmoved())) rebuild(true);
             if (stale(e.unmoved()) && o.dt <= 0) shorten(e.unmoved());
-            if (stale(e.unmoved())) stop_outrun(e.unmoved());
+            outrun = stale(e.unmoved());
         }
+        if constexpr (W::on) look_at_way(e);
+        if (outrun) stop_outrun(e.unmoved());
         if constexpr (W::on) {
             if (step_ == 0) look_at_start();
-            look_at_way(e);
             if (step_ % watch_.energy_every == 0) look_at_energy();
             keep_step();
         }
@@ -559,6 +561,12 @@ private:
     [[noreturn, gnu::cold]] void stop_index(StopFacts f) const
     {
         f.step = step_, f.time = time_, f.species = Engine::M::moves ? -1 : 0; // at rest, markers cannot be it
+        auto const& p = system_.mobile();
+        const std::size_t i = detail::first_by_id(p, [&](std::size_t k) { return p.id()[k] == f.particle; });
+        if (f.species == 0 && i < p.size()) {
+            const StopFacts all = detail::facts_of(p, i);
+            std::copy(std::begin(all.velocity), std::end(all.velocity), f.velocity);
+        }
         throw IndexOverflow(f);
     }
     /// Mass that the stiffest contact has to move [kg].
@@ -661,19 +669,24 @@ private:
         if constexpr (requires { eos.most_compression; }) return eos.most_compression * eos.rho0;
         else return std::numeric_limits<double>::infinity();
     }
-    /// Pairs that are too near; the smallest radius.
+    /// Pairs that are too near.
     [[gnu::cold]] void look_at_start()
     {
         if constexpr (Engine::any_pairs && Engine::M::planner.meet(0, 0))
             look_at_pairs(system_, watch_.overlap, step_, time_, report_.warnings);
-        if (stiffness_.contact_frequency <= 0) return;
+    }
+    [[gnu::cold]] [[nodiscard]] double least_radius() const
+    {
         auto const& p = system_.mobile();
-        for (std::size_t i = 0; i < p.size(); ++i) least_radius_ = std::min(least_radius_, radius_of(p, i));
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < p.size(); ++i) least = std::min(least, radius_of(p, i));
+        return least;
     }
     /// Contacts begin within what two grains close in by in one step: a tenth of a radius is told, a radius is a stop.
     void look_at_way(Extremes const& e)
     {
         if (stiffness_.contact_frequency <= 0) return;
+        if (step_ == 0) least_radius_ = least_radius();
         const double way = std::min(e.speed * dt_, system_.closing(e.unmoved(), dt_, 0)), r = least_radius_;
         if (way > 0.1 * r && !told_way_) warn_of_way(way);
         if (way > r) stop_way(way);

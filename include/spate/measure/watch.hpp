@@ -83,8 +83,8 @@ template <class P>
 }
 } // namespace detail
 
-/// Throws NonFinite (CoincidentParticles where that is why) for the first particle with a value that is not finite; nothing
-/// if there is none.
+/// Throws NonFinite (CoincidentParticles where that is why) for the particle of least id with a value that is not finite, or
+/// for the one of which a term made it, as it was then; nothing if all is finite.
 /// \param origin  asked for the Origin of the value
 template <class P>
 [[gnu::cold]] void stop_if_not_finite(P const& p, std::int64_t step, double time, auto const& origin)
@@ -97,7 +97,12 @@ template <class P>
     std::tie(f.quantity, f.value) = detail::not_finite(p, i);
     f.limit = std::numeric_limits<double>::max();
     const Origin from = origin();
-    f.term = from.term, f.other = from.other;
+    if (!from.term.empty()) { // neighbours may have ids that are less
+        f.species = from.species, f.particle = from.particle;
+        std::copy(std::begin(from.position), std::end(from.position), f.position);
+        std::copy(std::begin(from.velocity), std::end(from.velocity), f.velocity);
+        f.term = from.term, f.other = from.other;
+    }
     if (from.at_one_place) throw CoincidentParticles(f);
     throw NonFinite(f);
 }

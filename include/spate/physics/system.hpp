@@ -256,18 +256,23 @@ public:
             });
         });
     }
-    /// The evolving fields as they were when save() was called; false if the particles are others now.
+    /// The evolving fields as they were when save() was called, what derives from them zero; false if the particles are others
+    /// now.
     [[gnu::cold]] bool restore()
     {
         bool same = true;
         each_species([&](auto s) {
             auto& x = species<s()>();
             same = same && x.start.size() == x.particles.size();
-            if (same)
-                for_each(M::template evolving<s()>(), [&](auto f) {
-                    for (std::size_t c = 0; c < std::size(x.particles.column(f)); ++c)
-                        x.particles.column(f)[c] = x.start.column(f)[c];
-                });
+            if (!same) return;
+            for_each(M::template evolving<s()>(), [&](auto f) {
+                for (std::size_t c = 0; c < std::size(x.particles.column(f)); ++c)
+                    x.particles.column(f)[c] = x.start.column(f)[c];
+            });
+            for_each(x.particles.fields, [&](auto f) { // of the state of now
+                if constexpr (decltype(f)::derived)
+                    for (auto& column : x.particles.column(f)) std::fill(column.begin(), column.end(), T(0));
+            });
         });
         kick_rates_ = false;
         return same;
