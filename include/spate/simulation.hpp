@@ -517,15 +517,13 @@ private:
             throw BadInput("position of particle " + std::to_string(p.id()[i]),
                            text(system_.boundary().template beyond<dim>(p.at(position, i))) + " m beyond a wall",
                            "inside the walls");
-        // Where places are rounded by a hundredth of the length that forces vary over, forces are noise.
-        const double rounding = std::numeric_limits<typename Engine::T>::epsilon() / 2,
-                     length = physics().interaction.length();
+        const double most = system_.farthest(); // beyond, forces are noise
         for (std::size_t k = 0; k < p.size(); ++k)
             for (int c = 0; c < dim; ++c)
-                require(std::abs(p.at(position, k)[c]) * rounding <= 0.01 * length,
-                        "position of particle " + std::to_string(p.id()[k]), p.at(position, k)[c],
-                        "nearer to the origin than " + text(0.01 * length / rounding) +
-                            " m: there it is rounded by a hundredth of the particles' length");
+                require(std::abs(p.at(position, k)[c]) <= most, "position of particle " + std::to_string(p.id()[k]),
+                        p.at(position, k)[c],
+                        "at most " + text(most) +
+                            " m from the origin: there rounding is a hundredth of the particles' length");
         if constexpr (Set<Q::fields>::template contains<Radius> && requires { physics().interaction.largest; })
             for (std::size_t k = 0; k < p.size(); ++k)
                 require(p.at(radius, k) <= physics().interaction.largest,

@@ -46,9 +46,9 @@ auto scene(int integrator, double root, double sting)
         wcsph(CubicSpline<2>{1.3 * dx}, Tait{rho0, c0}, Continuity<2>{}, PressureForce<2>{}, Root{root}, Sting{sting});
     Simulation sim(fluid, chosen::AnyIntegrator{}, Periodic(Box<2>{{{0, 0}}, {{1, 1}}}), Threads{2});
     sim.fill(Box<2>{{{0.4, 0.4}}, {{0.6, 0.6}}}, dx);
-    sim.add({{0.3, 0.1}}, {{-1, 0}});  // id 100: on its way to the left
-    sim.add({{0.8, 0.8}}, {{0, 0}});   // 101
-    sim.add({{0.85, 0.8}}, {{-2, 0}}); // 102: on its way to 101, which it hears from 0.052 on
+    sim.add({{0.3, 0.1}}, {{-1, 0}});   // id 100: on its way to the left
+    sim.add({{0.8, 0.8}}, {{0, 0}});    // 101
+    sim.add({{0.85, 0.8}}, {{-20, 0}}); // 102: on its way to 101, which it hears from 0.052 on
     return sim;
 }
 /// Runs in pieces, as a user might, so that the last state kept is not always of this run.
@@ -89,7 +89,7 @@ TEST(Stop, NamesTheParticleTermThatMadeWhatIsNotFinite)
 TEST(Stop, NamesThePairTermAndTheNeighbour)
 {
     for (int integrator = 0; integrator < 4; ++integrator) {
-        auto sim = scene(integrator, never, 0.04);
+        auto sim = scene(integrator, never, 0.015);
         for (std::size_t i = 0; i < sim.particles().size(); ++i) // only these two are as near
             if (sim.particles().id()[i] < 100) sim.particles().put(velocity, i, {{0, 0}});
         const End end = run(sim, 1000);

@@ -57,15 +57,15 @@ std::size_t first_by_id(P const& p, auto const& is)
         if (is(i) && (first == p.size() || p.id()[i] < p.id()[first])) first = i;
     return first;
 }
-/// The first field of particle i that is not finite: its name and value.
+/// The first field of particle i that is not finite, or whose square is not: its name and value.
 template <class P>
 [[gnu::cold]] std::pair<std::string, double> not_finite(P const& p, std::size_t i)
 {
     std::pair<std::string, double> found{"", 0};
     for_each(P::fields, [&]<class F>(F f) {
         for (int c = 0; c < components<F, P::dim> && found.first.empty(); ++c) {
-            const double value = double(p.column(f)[std::size_t(c)][i]);
-            if (!std::isfinite(value)) found = {std::string(F::name), value};
+            const auto value = p.column(f)[std::size_t(c)][i];
+            if (!std::isfinite(value * value)) found = {std::string(F::name), value};
         }
     });
     return found;
@@ -95,7 +95,7 @@ template <class P>
     StopFacts f = detail::facts_of(p, i);
     f.step = step, f.time = time;
     std::tie(f.quantity, f.value) = detail::not_finite(p, i);
-    f.limit = std::numeric_limits<double>::max();
+    f.limit = std::sqrt(double(std::numeric_limits<typename P::real>::max())); // squares must be finite too
     const Origin from = origin();
     if (!from.term.empty()) { // neighbours may have ids that are less
         f.species = from.species, f.particle = from.particle;
