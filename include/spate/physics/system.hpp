@@ -245,6 +245,11 @@ public:
         if constexpr (M::moves) marker += e.wall_moved + t * e.wall_speed;
         return pair > marker ? pair : marker;
     }
+    /// Beyond this distance from the origin places are rounded by a hundredth of the length that forces vary over [m].
+    [[nodiscard]] double farthest() const
+    {
+        return 0.02 * physics_.interaction.length() / double(std::numeric_limits<T>::epsilon());
+    }
     void forget_lists()
     {
         set_aside();
@@ -417,18 +422,23 @@ public:
             });
         });
     }
-    /// The evolving fields as they were when save() was called; false if the particles are others now.
+    /// The evolving fields as they were when save() was called, what derives from them zero; false if the particles are others
+    /// now.
     [[gnu::cold]] bool restore()
     {
         bool same = true;
         each_species([&](auto s) {
             auto& x = species<s()>();
             same = same && x.start.size() == x.particles.size();
-            if (same)
-                for_each(M::template evolving<s()>(), [&](auto f) {
-                    for (std::size_t c = 0; c < std::size(x.particles.column(f)); ++c)
-                        x.particles.column(f)[c] = x.start.column(f)[c];
-                });
+            if (!same) return;
+            for_each(M::template evolving<s()>(), [&](auto f) {
+                for (std::size_t c = 0; c < std::size(x.particles.column(f)); ++c)
+                    x.particles.column(f)[c] = x.start.column(f)[c];
+            });
+            for_each(x.particles.fields, [&](auto f) { // of the state of now
+                if constexpr (decltype(f)::derived)
+                    for (auto& column : x.particles.column(f)) std::fill(column.begin(), column.end(), T(0));
+            });
         });
         kick_rates_ = false;
         return same;
@@ -1634,14 +1644,29 @@ private:
     }
     void wrap(auto& particles)
     {
+        const double most = farthest();
         auto& x = particles.column(position);
         for (int c = 0; c < dim; ++c)
             if (grid_.periodic(c))
                 for (std::size_t i = 0; i < particles.size(); ++i) {
                     auto& value = x[std::size_t(c)][i];
+                    if (!(std::abs(double(value)) <= most)) stop_lost(particles, i, most);
                     value = T(grid_.wrapped(c, double(value)));
-                    if (!(double(value) < grid_.box().hi[c])) value = T(grid_.box().lo[c]); // rounded up in T
+                    const bool inside = double(value) >= grid_.box().lo[c] && double(value) < grid_.box().hi[c];
+                    if (!inside) value = T(grid_.box().lo[c]); // rounded out in T
                 }
+    }
+    [[noreturn, gnu::cold]] static void stop_lost(auto const& particles, std::size_t i, double most)
+    {
+        StopFacts f;
+        f.particle = particles.id()[i];
+        f.quantity = "the distance from the origin along an axis [m], to wrap,";
+        for (int c = 0; c < dim; ++c) {
+            f.position[c] = particles.at(position, i)[c];
+            if (!(std::abs(f.position[c]) <= most)) f.value = f.position[c];
+        }
+        f.limit = most;
+        throw IndexOverflow(f);
     }
     P physics_;
     B boundary_;
