@@ -172,9 +172,9 @@ static_assert(same(Damped::record, Fields{position, velocity}) && Damped::S::kep
     return dem<3>(Mixture{.largest = 0.01}, LinearSpring{.k = 1e5}, Dashpot{.e = 0.7}, Friction{.mu = 0.5},
                   Dissipation{});
 }
-using Mixed = decltype(scene(mixture(), Open{}));
-static_assert(same(Mixed::M::mobile, of_rough | Fields{mass, radius, dissipated, dissipation_rate}));
-static_assert(same(Mixed::record, Fields{position, radius, velocity, mass, angular_velocity}));
+using Mixture = decltype(scene(mixture(), Open{}));
+static_assert(same(Mixture::M::mobile, of_rough | Fields{mass, radius, dissipated, dissipation_rate}));
+static_assert(same(Mixture::record, Fields{position, radius, velocity, mass, angular_velocity}));
 
 } // namespace
 
@@ -189,7 +189,7 @@ TEST(FieldSets, AreTheListedMinimum)
     print("... damped spheres", Damped{});
     print("... rough discs", Rough<2>{});
     print("... rough spheres", Rough<3>{});
-    print("rough spheres of many sizes that count what they lose", Mixed{});
+    print("rough spheres of many sizes that count what they lose", Mixture{});
 }
 
 // The columns themselves, not only their sets: what a particle costs, ids and padding aside.
