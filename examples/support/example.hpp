@@ -45,7 +45,7 @@ public:
     {
         const std::filesystem::path directory = options_.output;
         spate::io::History history(directory, options_.history_every, measure...);
-        Pictures pictures(directory, name_, options_.picture_every);
+        Pictures pictures(directory, name_, options_.picture_every, options_.colour);
         spate::require_non_negative("every", options_.every, "s");
         spate::RunOptions how{.until = options_.until, .steps = options_.steps, .cfl = options_.cfl, .dt = options_.dt};
         scene.check(how);

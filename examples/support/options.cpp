@@ -47,6 +47,7 @@ CommandLine::CommandLine(std::string const& name, std::string const& about, Opti
         ->type_name("N|T")
         ->capture_default_str();
     app.add_option("--restart", o.restart, "go on from this checkpoint of the same scene")->type_name("FILE");
+    choice("--colour", o.colour, {"speed", "pressure"}, "of the particles in pictures");
     app.add_flag("--quiet", o.quiet, "print nothing but errors");
 }
 CommandLine::~CommandLine() = default;

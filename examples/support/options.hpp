@@ -29,6 +29,7 @@ struct Options {
     std::string output = {};                                       ///< directory; empty: out/NAME
     std::string checkpoint_every = "0";                            ///< steps, or a time by the clock: 500, 600s, 2h
     std::string restart = {};                                      ///< checkpoint to go on from; empty: none
+    std::string colour = "speed";                                  ///< of pictures: speed or pressure
     bool quiet = false;
 };
 

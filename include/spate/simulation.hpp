@@ -17,6 +17,7 @@
 #include "spate/physics/system.hpp"
 #include "spate/physics/time_step.hpp"
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <numbers>
@@ -75,8 +76,8 @@ public:
 
     [[gnu::cold]] Simulation(P physics, I integrator, B boundary, Workers backend = {}, Precision = {}, W watch = {},
                              Neighbours neighbours = neighbours_for<typename Engine::M::Interaction>())
-        : integrator_(integrator), watch_(watch),
-          system_(checked(physics, boundary, backend, neighbours, watch), boundary, backend, neighbours, I::saves),
+        : integrator_(integrator), watch_(watch), system_(checked(physics, boundary, backend, neighbours, watch),
+                                                          boundary, backend, neighbours, I::saves || W::on),
           g_(gravity_of(physics))
     {
         place_markers();
@@ -288,25 +289,38 @@ public:
         look(e);
         choose_dt(o, e);
         if constexpr (Engine::M::moves) e |= move_markers(dt_);
+        bool outrun = false;
         if (stale(e)) {
             if constexpr (W::on) look_outside();
             rebuild();
             if (stale(e.unmoved())) rebuild(true);
-            if (stale(e.unmoved())) stop_outrun(e.unmoved());
+            if (stale(e.unmoved()) && o.dt <= 0) shorten(e.unmoved());
+            outrun = stale(e.unmoved());
         }
-        if constexpr (W::on)
+        if constexpr (W::on) look_at_way(e);
+        if (outrun) stop_outrun(e.unmoved());
+        if constexpr (W::on) {
+            if (step_ == 0) look_at_start();
             if (step_ % watch_.energy_every == 0) look_at_energy();
+            keep_step();
+        }
         system_.template phase<When::before_step>(step_, [] {}); // the lists are those of this step
         move_contacts();
         integrator_.step(system_, dt_);
         if constexpr (Engine::reflects) reflect();
-        system_.template phase<When::after_step>(step_, [&] { make_lists_current(); });
+        after_step();
         time_ += dt_;
         ++step_;
         ++report_.steps;
         report_.cpu += double(std::clock() - cpu) / CLOCKS_PER_SEC;
         report_.wall += std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
     }
+    /// Whether a term sets densities, and with them energy that no force gives: re-initialisation.
+    static constexpr bool writes_energy = []<class... T>(std::tuple<T...> const*) {
+        return (false || ... || requires { T::writes_energy; });
+    }(static_cast<typename Engine::M::Terms const*>(nullptr));
+    /// The compressive energy that such terms have given to the fluid since the start [J].
+    [[nodiscard]] double written_energy() const { return written_energy_; }
     /// Asked before each step: true ends the run after the step in hand.
     void interrupt_when(std::function<bool()> f) { interrupted_ = std::move(f); }
     [[nodiscard]] bool interrupted() const { return system_.ranks().all(interrupted_(), agree::Or{}); }
@@ -393,7 +407,7 @@ public:
         f("mach_max", r.mach), f("density_change_max", r.density_change), f("energy_rise_max", r.energy_rise);
         f("energy_reference", r.energy_reference), f("kinetic_start", r.start.kinetic);
         f("potential_start", r.start.potential), f("internal_start", r.start.internal);
-        f("exchanged_moment", self.exchanged_.moment);
+        f("written_energy", self.written_energy_), f("exchanged_moment", self.exchanged_.moment);
         for (auto* a : {&self.exchanged_.entered, &self.exchanged_.left}) {
             const std::string side = a == &self.exchanged_.left ? "left_" : "entered_";
             f(side + "particles", a->particles), f(side + "mass", a->mass), f(side + "energy", a->energy);
@@ -406,17 +420,18 @@ public:
     {
         auto const& i = physics().interaction;
         auto const& n = system_.neighbours();
-        f("range", i.range()), f("length", i.length());
+        f("range of interaction", i.range()), f("length of interaction", i.length());
         if constexpr (has_equation_of_state<P>)
             f("rho0", equation_of_state(physics()).rho0), f("c0", equation_of_state(physics()).c0);
         const Stiffness s = stiffness_of_all();
-        f("viscosity", s.viscosity), f("contact_frequency", s.contact_frequency);
+        f("viscosity", s.viscosity), f("contact frequency", s.contact_frequency);
         for (int c = 0; c < dim; ++c) f(along_axis("gravity", c), g_[c]);
-        f("skin", n.skin), f("bin_edge", n.bin_edge()), f("trigger", n.closed_in());
-        f("bins_in_a_range", n.finer), f("skin_by_place", n.local);
+        f("skin", n.skin), f("bin edge over range", n.bin_edge()), f("trigger", n.closed_in());
+        f("bins in a range", n.finer), f("skin by place", n.local);
         if (const auto box = system_.boundary().template box<dim>())
             for (int c = 0; c < dim; ++c)
-                f(along_axis("box_lower", c), box->lo[c]), f(along_axis("box_upper", c), box->hi[c]);
+                f(along_axis("lower corner of the box", c), box->lo[c]),
+                    f(along_axis("upper corner of the box", c), box->hi[c]);
         system_.each_species([&](auto k) {
             auto const& p = system_.template species<k()>().particles;
             for_each(p.uniform, [&]<class F>(F field) {
@@ -462,9 +477,8 @@ private:
     }
     [[nodiscard]] Stiffness stiffness_of_all() const
     {
-        double m = 0;
-        if constexpr (Set<P::uniform>::template contains<Mass>) m = system_.mobile().value(mass);
-        Stiffness s = stiffness_of(physics(), m);
+        const double m = least(mass);
+        Stiffness s = stiffness_of(physics(), m, least(radius));
         detail::each_in(system_.terms(), [&](auto const& t) {
             if constexpr (requires { t.pushes; })
                 s.contact_frequency = std::max(s.contact_frequency, t.contact_frequency(m));
@@ -718,7 +732,7 @@ private:
             const auto [name, value] = detail::not_finite(p, i);
             throw BadInput(name + " of particle " + std::to_string(p.id()[i]), text(value), "a finite number");
         }
-        for_each(Q::fields & Fields{density, mass}, [&]<class F>(F f) {
+        for_each(Q::fields & Fields{density, mass, radius}, [&]<class F>(F f) {
             const std::size_t k = detail::first_by_id(p, [&](std::size_t j) { return !(p.at(f, j) > 0); });
             if (k < p.size())
                 throw BadInput(std::string(F::name) + " of particle " + std::to_string(p.id()[k]), text(p.at(f, k)),
@@ -740,6 +754,13 @@ private:
             throw BadInput("position of particle " + std::to_string(p.id()[i]),
                            text(system_.boundary().template beyond<dim>(p.at(position, i))) + " m beyond a wall",
                            "inside the walls");
+        const double most = system_.farthest(); // beyond, forces are noise
+        for (std::size_t k = 0; k < p.size(); ++k)
+            for (int c = 0; c < dim; ++c)
+                require(std::abs(p.at(position, k)[c]) <= most, "position of particle " + std::to_string(p.id()[k]),
+                        p.at(position, k)[c],
+                        "at most " + text(most) +
+                            " m from the origin: there rounding is a hundredth of the particles' length");
         if constexpr (Set<Q::fields>::template contains<Radius> && requires { physics().interaction.largest; })
             for (std::size_t k = first; k < p.size(); ++k)
                 require(p.at(radius, k) <= physics().interaction.largest,
@@ -777,6 +798,12 @@ private:
     [[noreturn, gnu::cold]] void stop_index(StopFacts f) const
     {
         f.step = step_, f.time = time_, f.species = Engine::M::moves ? -1 : 0; // at rest, markers cannot be it
+        auto const& p = system_.mobile();
+        const std::size_t i = detail::first_by_id(p, [&](std::size_t k) { return p.id()[k] == f.particle; });
+        if (f.species == 0 && i < p.size()) {
+            const StopFacts all = detail::facts_of(p, i);
+            std::copy(std::begin(all.velocity), std::end(all.velocity), f.velocity);
+        }
         throw IndexOverflow(f);
     }
     [[gnu::cold]] void begin_run(RunOptions const& o)
@@ -791,6 +818,18 @@ private:
         if (o.dt > 0) return;
         const TimeStep t = time_step(stiffness_, o.cfl, 0, std::sqrt(g_.squaredNorm()));
         require(std::isfinite(t.dt), "dt", o.dt, "above 0: the model has no criterion that bounds the step");
+    }
+    /// The least value among the particles of what contacts depend on; 0 where they don't carry it.
+    [[gnu::cold]] [[nodiscard]] double least([[maybe_unused]] auto field) const
+    {
+        auto const& p = system_.mobile();
+        if constexpr (!std::remove_cvref_t<decltype(p)>::template has<decltype(field)>) return 0;
+        else if constexpr (Set<P::uniform>::template contains<decltype(field)>) return p.value(field);
+        else {
+            double x = p.empty() ? 1 : p.at(field, 0);
+            for (std::size_t i = 0; i < p.size(); ++i) x = std::min(x, p.at(field, i));
+            return x;
+        }
     }
     void choose_dt(RunOptions const& o, Extremes const& e)
     {
@@ -820,10 +859,34 @@ private:
         }
         for (auto& warning : advice<I>(physics(), spacing, stiffness_, dt)) report_.warnings.push_back(warning);
     }
+    void after_step()
+    {
+        auto run = [&] { system_.template phase<When::after_step>(step_, [&] { make_lists_current(); }); };
+        if constexpr (writes_energy) {
+            bool due = false;
+            auto ask = [&](auto const& term) {
+                if constexpr (requires { term.writes_energy; }) due = due || step_ % term.every == 0;
+            };
+            std::apply([&](auto const&... term) { (ask(term), ...); }, system_.terms());
+            const double before = due ? energy().internal : 0;
+            run();
+            if (due) written_energy_ += energy().internal - before;
+        }
+        else run();
+    }
     /// Whether the lists may miss a pair at the positions of a step of dt.
     [[nodiscard]] bool stale(Extremes const& e) const
     {
         return system_.stale(e, I::ahead_velocity * dt_, I::ahead_acceleration * dt_ * dt_);
+    }
+    /// A step by the criteria is as short as lists need it: what closes in faster than sound would outrun them.
+    [[gnu::cold]] void shorten(Extremes const& e)
+    {
+        const double way = system_.closing(e, I::ahead_velocity * dt_, I::ahead_acceleration * dt_ * dt_);
+        const double most = system_.neighbours().closed_in() * physics().interaction.range();
+        if (!(way > most)) return;
+        free_dt_ = dt_ *= 0.99 * most / way, criterion_ = "lists"; // ways grow with dt at least in proportion
+        if constexpr (Engine::M::moves) move_markers(dt_);
     }
     /// Lists that do not last one step would miss pairs in silence.
     [[noreturn, gnu::cold]] void stop_outrun(Extremes const& e) const
@@ -851,8 +914,107 @@ private:
                     std::max({report_.density_change, e.most_density / eos.rho0 - 1, 1 - e.least_density / eos.rho0});
         }
         if constexpr (W::on) {
-            if (e.poison != 0) together(system_.ranks(), [&] { stop_if_not_finite(system_.mobile(), step_, time_); });
+            if (e.poison != 0)
+                together(system_.ranks(),
+                         [&] { stop_if_not_finite(system_.mobile(), step_, time_, [&] { return origin(); }); });
+            if constexpr (has_equation_of_state<P>)
+                if (!(e.least_density > 0) || e.most_density > most_density())
+                    together(system_.ranks(), [&] { stop_of_density(system_.mobile(), most_density(), step_, time_); });
         }
+    }
+    [[nodiscard]] double most_density() const
+    {
+        auto const& eos = equation_of_state(physics());
+        if constexpr (requires { eos.most_compression; }) return eos.most_compression * eos.rho0;
+        else return std::numeric_limits<double>::infinity();
+    }
+    /// Pairs that are too near.
+    [[gnu::cold]] void look_at_start()
+    {
+        if constexpr (Engine::any_pairs && Engine::M::planner.meet(0, 0))
+            look_at_pairs(system_, watch_.overlap, step_, time_, report_.warnings);
+    }
+    [[gnu::cold]] [[nodiscard]] double least_radius() const
+    {
+        auto const& p = system_.mobile();
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < p.size(); ++i) least = std::min(least, radius_of(p, i));
+        return least;
+    }
+    /// Contacts begin within what two grains close in by in one step: a tenth of a radius is told, a radius is a stop.
+    void look_at_way(Extremes const& e)
+    {
+        if (stiffness_.contact_frequency <= 0) return;
+        if (step_ == 0) least_radius_ = least_radius();
+        const double way = std::min(e.speed * dt_, system_.closing(e.unmoved(), dt_, 0)), r = least_radius_;
+        if (way > 0.1 * r && !told_way_) warn_of_way(way);
+        if (way > r) stop_way(way);
+    }
+    [[gnu::cold]] void warn_of_way(double way)
+    {
+        told_way_ = true;
+        report_.warnings.push_back("grains move by " + text(way / least_radius_) +
+                                   " radii in a step at t = " + text(time_) +
+                                   " s: contacts that begin deeper than a tenth are not resolved; take a smaller dt");
+    }
+    [[noreturn, gnu::cold]] void stop_way(double way) const
+    {
+        auto const& p = system_.mobile();
+        const double most = way / dt_;
+        const std::size_t i = detail::first_by_id(
+            p, [&](std::size_t k) { return p.at(velocity, k).squaredNorm() >= most * most * (1 - 1e-12); });
+        StopFacts f = i < p.size() ? detail::facts_of(p, i) : StopFacts{};
+        f.step = step_, f.time = time_, f.quantity = "the way of a grain in one step [m]", f.value = way;
+        f.limit = least_radius_;
+        throw OverlapTooDeep(f, "a contact would begin deeper than a radius, or be missed: take a smaller dt");
+    }
+    /// Remembers a state from which the steps until now can be run again: that of the last rebuild, as lists go with it, or
+    /// a later one; integrators that save do so in each step.
+    void keep_step()
+    {
+        constexpr std::size_t most = 100;
+        if (I::saves || kept_rebuild_ != system_.rebuilds() || kept_dt_.size() >= most) {
+            if constexpr (!I::saves) system_.save();
+            kept_dt_.clear();
+            kept_rebuild_ = system_.rebuilds(), kept_step_ = step_, kept_time_ = time_;
+        }
+        kept_dt_.push_back(dt_);
+    }
+    /// Which term made a value that is not finite, found by running the steps since the kept state again; this state is put
+    /// back afterwards.
+    [[gnu::cold]] Origin origin()
+    {
+        if constexpr (!Engine::alone) return {}; // a replay would be of all ranks
+        if (kept_dt_.empty() || kept_rebuild_ != system_.rebuilds()) return {};
+        const double time = time_;
+        Engine failed = system_;
+        Origin found;
+        try {
+            found = origin_of_replay();
+        }
+        catch (Stop const&) {
+        } // one that came before
+        system_ = std::move(failed);
+        time_ = time;
+        return found;
+    }
+    [[gnu::cold]] Origin origin_of_replay()
+    {
+        if (!system_.restore()) return {};
+        time_ = kept_time_;
+        for (std::size_t k = 0; k < kept_dt_.size(); ++k) {
+            const std::int64_t step = kept_step_ + std::int64_t(k);
+            if constexpr (Engine::M::moves) move_markers(kept_dt_[k]);
+            if (k > 0 || !I::saves) system_.template phase<When::before_step>(step, [] {});
+            Replay<Engine> again(std::move(system_));
+            integrator_.step(again, kept_dt_[k]);
+            system_ = static_cast<Engine&&>(again);
+            if (again.found()) return again.origin();
+            if constexpr (Engine::reflects) reflect();
+            system_.template phase<When::after_step>(step, [] {});
+            time_ += kept_dt_[k];
+        }
+        return {};
     }
     [[gnu::cold]] void final_look()
     {
@@ -902,7 +1064,7 @@ private:
     /// Kinetic and stored energy at the start, or that of the fastest flow that the speed of sound was chosen for, c0/10.
     [[gnu::cold]] [[nodiscard]] double reference(Energy const& e) const
     {
-        double r = e.kinetic;
+        double r = e.kinetic + e.rotational;
         if constexpr (has_equation_of_state<P>) {
             const double u = equation_of_state(physics()).c0 / 10;
             auto const& p = system_.mobile();
@@ -921,10 +1083,15 @@ private:
     Exchanged<dim> exchanged_;
     double came_at_start_ = 0; ///< energy that particles had brought when the watch began [J]
     std::function<bool()> interrupted_ = [] { return false; };
-    double time_ = 0, dt_ = 0, free_dt_ = 0, first_dt_ = 0, cfl_ = 0, fixed_dt_ = 0;
+    double time_ = 0, dt_ = 0, free_dt_ = 0, first_dt_ = 0, cfl_ = 0, fixed_dt_ = 0, written_energy_ = 0;
     std::string_view criterion_ = "none";
     std::int64_t step_ = 0;
     bool prepared_ = false, warned_ = false, stopped_ = false, resumed_ = false;
+    bool told_way_ = false;
+    double least_radius_ = std::numeric_limits<double>::infinity(); ///< [m]
+    std::vector<double> kept_dt_;                                   ///< of the steps since the kept state [s]
+    std::int64_t kept_step_ = 0, kept_rebuild_ = -1;
+    double kept_time_ = 0; ///< [s]
 };
 
 } // namespace spate

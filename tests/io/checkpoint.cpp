@@ -93,7 +93,9 @@ TEST_F(CheckpointTest, OfARestartGoesOnToo)
         if (n > 0) io::resume(part, state);
         part.run({.steps = 100, .cfl = 0.2});
         state = through_a_file(io::state_of(part));
-        if (n == 600) { EXPECT_EQ(part.state_hash(), whole.state_hash()); }
+        if (n == 600) {
+            EXPECT_EQ(part.state_hash(), whole.state_hash());
+        }
     }
 }
 
@@ -169,8 +171,8 @@ TEST_F(CheckpointTest, GoesOnWithOtherBitsIfListsAreThoseOfNowOrContactsAreForgo
 auto stirred(int cell)
 {
     constexpr double dx = 0.05;
-    auto fluid = wcsph(WendlandC2<2>{.h = 1.5 * dx}, LinearEos{.rho0 = 1, .c0 = 20}, Continuity<1>{}, PressureForce<1>{},
-                       LaminarViscosity{.mu = 0.02}, Xsph{.eps = 0.3});
+    auto fluid = wcsph(WendlandC2<2>{.h = 1.5 * dx}, LinearEos{.rho0 = 1, .c0 = 20}, Continuity<1>{},
+                       PressureForce<1>{}, LaminarViscosity{.mu = 0.02}, Xsph{.eps = 0.3});
     Bce channel(Box<2>{{}, {{1, 1}}}, dx, Adami{}, periodic(0), no_slip,
                 obstacle(Box<2>{{{0.4, 0.4}}, {{0.6, 0.6}}}, Rotation<2>{.centre = {{0.5, 0.5}}, .omega = 3}));
     Simulation sim(fluid, Leapfrog{}, channel, Serial{.cell = cell});

@@ -95,7 +95,8 @@ TEST_F(CheckpointFileTest, SaysWhyItIsRefused)
     const auto version = std::string_view("spate checkpoint\nversion ").size();
     for (char other : {'0', '2'}) {
         some[version] = std::byte(other);
-        EXPECT_THAT(said_of(some), HasSubstr("of version " + std::string(1, other) + ", and this program reads version 1"));
+        EXPECT_THAT(said_of(some),
+                    HasSubstr("of version " + std::string(1, other) + ", and this program reads version 1"));
     }
     some.assign(bytes.begin() + 512, bytes.end()); // any other HDF5 file
     EXPECT_THAT(said_of(some), HasSubstr("no checkpoint"));
@@ -146,7 +147,9 @@ TEST_F(CheckpointFileTest, IsRefusedOrTakenButNeverHalfTaken)
                 const std::size_t one = v.empty() ? 0 : dice(v.size());
                 switch (v.empty() ? 6 : dice(8)) {
                 case 0: v.pop_back(); break;
-                case 1: v[one] = std::numeric_limits<T>::has_quiet_NaN ? std::numeric_limits<T>::quiet_NaN() : T(-1); break;
+                case 1:
+                    v[one] = std::numeric_limits<T>::has_quiet_NaN ? std::numeric_limits<T>::quiet_NaN() : T(-1);
+                    break;
                 case 2: v[one] = std::numeric_limits<T>::max(); break;
                 case 3: std::swap(v[one], v[dice(v.size())]); break;
                 case 4: v[one] = T(dice(1000)); break;
@@ -189,7 +192,7 @@ TEST_F(CheckpointFileTest, IsOfThisSceneOrRefused)
         EXPECT_THAT(said, HasSubstr("is of another scene: its " + what));
     };
     scene_differs(said_by(other_tank(31, 1, alike), state), "c0 is 30, here it is 31");
-    scene_differs(said_by(other_tank(30, 2, alike), state), "box_upper along axis 1 is 1, here it is 2");
+    scene_differs(said_by(other_tank(30, 2, alike), state), "upper corner of the box along axis 1 is 1, here it is 2");
     scene_differs(said_by(other_tank(30, 1, ArtificialViscosity{.alpha = 0.2}), state), "viscosity is 0.0224");
     scene_differs(said_by(other_tank(30, 1, LaminarViscosity{.mu = 1}), state),
                   "term 3 is spate::ArtificialViscosity, here it is spate::LaminarViscosity");

@@ -2,7 +2,12 @@
 // Checkpoints come when they are due, the last two stay, outputs go on as if nothing had been, and a stop leaves a good state.
 #include "spate/io/checkpoint.hpp"
 
+#include <csignal>
+#include <cstdio>
+#include <map>
 #include <set>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "io/small_tank.hpp"
 #include "spate/io/history.hpp"
@@ -72,6 +77,20 @@ TEST_F(CheckpointsTest, RefuseWhatMakesNoSense)
     auto tank = small_tank::scene();
     io::Checkpoints nowhere(folder / "not_there", {.steps = 1});
     EXPECT_THROW(tank.run({.steps = 2, .dt = dt}, nowhere), OutputError);
+}
+
+TEST(Every, GoesOnWithTheIntervalThatItHasNow)
+{
+    io::detail::Every before(0.1), same(0.1), other(0.25);
+    EXPECT_TRUE(before.due(0.35)); // for 0.3
+    std::map<std::string, double> notes;
+    before.notes("e", [&](std::string const& name, double& value) { notes[name] = value; });
+    auto recall = [&](std::string const& name, double& value) { value = notes.at(name); };
+    same.notes("e", recall), other.notes("e", recall);
+    EXPECT_FALSE(same.due(0.39));
+    EXPECT_TRUE(same.due(0.4));
+    EXPECT_FALSE(other.due(0.45));
+    EXPECT_TRUE(other.due(0.5));
 }
 
 /// What a run leaves in a folder: in one piece, or interrupted at some steps and continued.
@@ -148,6 +167,81 @@ TEST_F(ContinuedTest, AfterItWasKilledHasNoGapAndNoDoubleRow)
     EXPECT_FALSE(std::filesystem::exists(folder / "killed" / "checkpoint_22.h5"));
     EXPECT_TRUE(std::filesystem::exists(folder / "killed" / "checkpoint_33.h5"));
 }
+/// Tells a pipe that the run has begun.
+struct Begun {
+    int pipe;
+    void begin(auto&) const
+    {
+        if (pipe >= 0 && ::write(pipe, "b", 1) != 1) throw std::runtime_error("no pipe");
+    }
+    void step(auto&) const {}
+    void end(auto&) const {}
+};
+/// A run that is killed again and again, while it computes or writes, goes on from a whole file each time.
+TEST_F(ContinuedTest, AfterFiftyKillsAtAnyMomentGoesOnFromAWholeFile)
+{
+    in("killed");
+    auto newest = [&] {
+        std::int64_t step = -1;
+        for (auto const& entry : std::filesystem::directory_iterator(folder / "killed")) {
+            const std::string name = entry.path().filename();
+            long long n = -1;
+            if (std::sscanf(name.c_str(), "checkpoint_%lld", &n) != 1 || name.rfind(".h5") != name.size() - 3) continue;
+            EXPECT_EQ(io::read_checkpoint(entry.path()).one<std::int64_t>("run/step"), n); // each is whole
+            step = std::max(step, std::int64_t(n));
+        }
+        return step;
+    };
+    auto go_on = [&](auto& scene, std::int64_t from, RunOptions const& how, std::int64_t every, int told) {
+        Outputs o(folder / "killed", {.steps = every});
+        if (from >= 0) o.checkpoints.restart(scene, folder / "killed" / ("checkpoint_" + std::to_string(from) + ".h5"));
+        scene.run(how, o.history, o.snapshots, o.checkpoints, Begun{told});
+    };
+    std::uint64_t dice = 5; // a linear congruence (Knuth): any moments will do
+    std::int64_t from = -1;
+    int moved = 0, kills = 0;
+    for (; kills < 50 || (moved < 10 && kills < 200); ++kills) {
+        int ends[2];
+        ASSERT_EQ(::pipe(ends), 0);
+        const pid_t child = ::fork();
+        ASSERT_GE(child, 0);
+        if (child == 0) {
+            try {
+                auto scene = small_tank::scene();
+                go_on(scene, from, {.steps = 1'000'000, .dt = dt}, 1, ends[1]); // most of the time goes into files
+            }
+            catch (std::exception const& e) {
+                std::fputs(e.what(), stderr);
+            }
+            ::_exit(1);
+        }
+        ::close(ends[1]);
+        char begun = 0;
+        if (kills % 4 != 0) {
+            ASSERT_EQ(::read(ends[0], &begun, 1), 1);
+        } // else perhaps while it sets up
+        ::close(ends[0]);
+        dice = dice * 6364136223846793005u + 1442695040888963407u;
+        ::usleep(useconds_t((dice >> 33) % 120'000));
+        ::kill(child, SIGKILL);
+        int status = 0;
+        ASSERT_EQ(::waitpid(child, &status, 0), child);
+        ASSERT_TRUE(WIFSIGNALED(status));
+        const auto now = newest();
+        EXPECT_GE(now, from); // none is lost
+        moved += now > from;
+        from = now;
+    }
+    EXPECT_GE(moved, 10);
+    auto last = small_tank::scene(), whole = small_tank::scene();
+    go_on(last, from, {.steps = 20, .dt = dt}, 7, -1);
+    Outputs(in("whole"), {}).run(whole, {.steps = last.steps(), .dt = dt});
+    EXPECT_EQ(last.state_hash(), whole.state_hash());
+    EXPECT_EQ(content(folder / "killed" / "history.csv"), content(folder / "whole" / "history.csv"));
+    EXPECT_EQ(content(folder / "killed" / "tank.hdf.series"), content(folder / "whole" / "tank.hdf.series"));
+    for (auto const& entry : std::filesystem::directory_iterator(folder / "killed"))
+        EXPECT_NE(entry.path().extension(), ".tmp") << entry.path(); // what a kill has left is gone
+}
 TEST_F(ContinuedTest, InAnotherFolderHasTheRowsFromThere)
 {
     auto first = small_tank::scene();
@@ -162,7 +256,7 @@ TEST_F(ContinuedTest, InAnotherFolderHasTheRowsFromThere)
     std::getline(rows, line);
     EXPECT_EQ(line.rfind("step,t,", 0), 0u);
     std::getline(rows, line);
-    EXPECT_EQ(line.rfind("23,", 0), 0u) << line; // the first step after 22.5 dt
+    EXPECT_EQ(line.rfind("23,", 0), 0u) << line;                     // the first step after 22.5 dt
     EXPECT_TRUE(std::filesystem::exists(before.checkpoints.last())); // not ours to remove
 }
 TEST_F(ContinuedTest, WithAnotherStepIsTold)
@@ -185,8 +279,7 @@ struct Saboteur {
     void begin(auto&) const {}
     void step(auto& scene) const
     {
-        if (scene.steps() == at)
-            scene.particles().column(velocity)[0][7] = std::numeric_limits<double>::infinity();
+        if (scene.steps() == at) scene.particles().column(velocity)[0][7] = std::numeric_limits<double>::infinity();
     }
     void end(auto&) const {}
 };

@@ -58,6 +58,42 @@ TEST(PairMemory, CountsEveryEvaluationOfAContactThroughRebuilds)
     }
     EXPECT_GT(box.system().rebuilds(), 20);
 }
+// What is kept is carried to where positions are: as old as the contact, whatever stages the integrator takes, and looking
+// at it changes nothing.
+struct Ageing {
+    static constexpr Fields adds{acceleration};
+    static constexpr Fields keeps{age};
+    static constexpr bool stores_energy = true;
+    void operator()(auto& i, auto const&, auto const& ij) const
+    {
+        i[age] = value(i[age]) + i[elapsed];
+        i[acceleration] += (1e-9 * value(i[age])) * ij.n;
+    }
+    double energy(auto const& i, auto const&, auto const&) const { return value(i[age]); }
+};
+template <class I>
+class PairMemoryOf : public testing::Test {};
+using Integrators = testing::Types<ForwardEuler, SymplecticEuler, Leapfrog, RungeKutta2>;
+TYPED_TEST_SUITE(PairMemoryOf, Integrators);
+
+TYPED_TEST(PairMemoryOf, IsAsOldAsTheContact)
+{
+    Simulation box(dem<2>({.mass = 0.1, .radius = r}, Ageing{}), TypeParam{}, Open{}, Serial{}, Double{}, NoWatch{});
+    box.add({0.5, 0.5});
+    box.add({0.5 + 1.5 * r, 0.5});
+    double t = 0;
+    for (int n = 1; n <= 50; ++n) {
+        const double step = n % 3 == 0 ? dt : dt / 4; // no two alike
+        box.run({.steps = 1, .dt = step});
+        t += step;
+        const auto hash = box.state_hash();
+        EXPECT_NEAR(box.energy().internal, t, 1e-12) << "after step " << n; // of two copies, half of each
+        EXPECT_EQ(box.state_hash(), hash);
+        const auto pairs = box.system().template kept_of_pairs<0, 0>();
+        const double kept = pairs.empty() ? 0 : pairs[0].value[0]; // zero is not listed
+        EXPECT_NEAR(kept + box.system().memory_age(), t, 1e-12);
+    }
+}
 TEST(PairMemory, DiesWithTheContactAndIsBornAtZero)
 {
     auto box = crowd(Serial{});
@@ -80,5 +116,50 @@ TEST(PairMemory, DoesNotDependOnThreadsCellsOrPacks)
     one.run({.steps = 150, .dt = dt});
     two.run({.steps = 150, .dt = dt});
     EXPECT_EQ(one.state_hash(), two.state_hash());
+}
+TEST(PairMemory, SurvivesThatOthersComeAndGo)
+{
+    auto box = crowd(Serial{});
+    for (int n = 1; n <= 120; ++n) {
+        if (n % 3 == 0) box.remove([&](auto const& p, std::size_t i) { return p.id()[i] == std::uint32_t(1 + n / 3); });
+        if (n % 5 == 0) {
+            auto more = box.newcomers();
+            box.append(more, {0.9, 0.02 + 0.008 * n}, {1, 0});
+            box.enter(more);
+        }
+        if (n % 7 == 0) box.add({0.7, 0.02 + 0.008 * n}, {-1, 0});
+        box.run({.steps = 1, .dt = dt});
+        ASSERT_NEAR(push_on(box, 0), -n, 1e-9 * n) << "after step " << n;
+    }
+    EXPECT_EQ(box.exchanged().left.particles, 40);
+}
+TEST(PairMemory, OfAGrainThatLeavesIsForgotten)
+{
+    auto box = crowd(Serial{});
+    box.run({.steps = 5, .dt = dt});
+    auto pairs = [&] { return box.system().template kept_of_pairs<0, 0>(); };
+    const auto of_1 = [](auto const& pair) { return pair.i == 1 || pair.j == 1; };
+    auto count = [&] {
+        const auto all = pairs();
+        return std::count_if(all.begin(), all.end(), of_1);
+    };
+    ASSERT_EQ(count(), 2);
+    const auto all = pairs().size();
+    box.remove([](auto const& p, std::size_t i) { return p.id()[i] == 1; });
+    EXPECT_EQ(count(), 0);
+    EXPECT_EQ(pairs().size(), all - 2); // those of others are still known before lists are built again
+    box.run({.steps = 1, .dt = dt});
+    EXPECT_EQ(count(), 0);
+    EXPECT_EQ(push_on(box, 0), 0);
+}
+// Lists that are thrown away by hand, twice: what is kept is neither lost nor as it was when they were built.
+TEST(PairMemory, IsThatOfNowAfterListsWereForgotten)
+{
+    auto box = crowd(Serial{});
+    for (int n = 1; n <= 12; ++n) {
+        box.run({.steps = 1, .dt = dt});
+        ASSERT_NEAR(push_on(box, 0), -n, 1e-9 * n) << "after step " << n;
+        if (n % 3 == 0) box.prepare(), box.prepare();
+    }
 }
 } // namespace

@@ -8,13 +8,14 @@ namespace {
 
 using namespace scenes;
 
-/// Grains enter on the left of a periodic channel, collide, and leave on the right.
+/// Rough grains enter on the left of a periodic channel, collide, and leave on the right.
 template <class Precision = Double, class W = Watch, class Backend>
 Outcome channel(Backend backend, std::int64_t piece = 1 << 30)
 {
     constexpr double r = 0.01;
-    Simulation sim(dem<2>({.mass = 0.1, .radius = r}, LinearSpring{.k = 1e5}, Gravity<2>{{0, -9.81}}), Leapfrog{},
-                   Periodic(Box<2>{{}, {{1, 0.5}}}, open(left, right)), backend, Precision{}, W{});
+    Simulation sim(dem<2>({.mass = 0.1, .radius = r}, LinearSpring{.k = 1e5}, Dashpot{.e = 0.9}, Friction{.mu = 0.5},
+                          Gravity<2>{{0, -9.81}}),
+                   Leapfrog{}, Periodic(Box<2>{{}, {{1, 0.5}}}, open(left, right)), backend, Precision{}, W{});
     for (int n = 0; n < 20; ++n) sim.add({{0.5 + 0.001 * n, 0.01 + n * 0.024}});
     Pour pour(Box<2>{{{0.02, 0}}, {{0.3, 0.5}}}, {.rate = 2000, .seed = 4}, [](auto& p, std::size_t i, Draw& draw) {
         p.put(velocity, i, {{2 * draw(), draw() - 0.5}});

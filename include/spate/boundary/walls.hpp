@@ -39,7 +39,7 @@ public:
     explicit Walls(Box<Dim> box, Options... options)
         : box_(box), edges_(Edge::wall), parts_(detail::picked_of<detail::IsContact>(options...))
     {
-        auto edge = [&](auto const& o) {
+        [[maybe_unused]] auto edge = [&](auto const& o) {
             if constexpr (!detail::IsContact<std::remove_cvref_t<decltype(o)>>::value) apply(edges_, o);
         };
         (edge(options), ...);
@@ -89,8 +89,11 @@ public:
     template <class P>
     [[nodiscard]] auto terms(P const& physics) const requires(touches)
     {
-        return std::apply([&](auto const&... part) { return std::tuple{term_of(physics.interaction, part)...}; },
-                          parts_);
+        return [&]<std::size_t... k>(std::index_sequence<k...>)
+        {
+            return std::tuple{term_of<int(k)>(physics.interaction, std::get<k>(parts_))...};
+        }
+        (std::make_index_sequence<std::tuple_size_v<Parts>>{});
     }
 
     /// Whether any lane is through a plane that reflects.
@@ -138,21 +141,21 @@ private:
     {
         std::apply([&](auto const&... part) { (f(part), ...); }, parts_);
     }
-    template <class I, std::size_t N, class S, class M, class... T>
+    template <int k, class I, std::size_t N, class S, class M, class... T>
     [[nodiscard]] auto term_of(I const& interaction, ContactPart<N, S, M, T...> const& part) const
     {
         static_assert(std::same_as<M, Still> || Motion<M, Dim>,
                       "spate: the law of a wall has another number of dimensions than the box of the Walls");
         auto with = [&](auto surface) {
-            WallContact<I, decltype(surface), M, T...> term{interaction, surface, part.law, part.terms};
+            WallContact<I, decltype(surface), M, k * Dim, T...> term{interaction, surface, part.law, part.terms};
             if constexpr (term.moves) term.move_to(0);
             return term;
         };
         if constexpr (std::same_as<S, NoSolid>) {
             Planes<Dim> planes{box_};
             if (N == 0)
-                for (std::size_t k = 0; k < planes.on.size(); ++k)
-                    planes.on[k] = edges_.face[k] == Edge::wall && !touched_[k];
+                for (std::size_t f = 0; f < planes.on.size(); ++f)
+                    planes.on[f] = edges_.face[f] == Edge::wall && !touched_[f];
             for (Face f : part.faces) planes.on[at(f)] = true;
             return with(planes);
         }

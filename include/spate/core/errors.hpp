@@ -56,6 +56,8 @@ struct StopFacts {
     std::string quantity;           ///< the field or measure that broke its limit
     double value = 0;
     double limit = 0;
+    std::string term;        ///< that made the value, where it was one
+    std::int64_t other = -1; ///< id of the neighbour of whom it made it
 };
 
 /// A run that can't go on. `name()` is what summary.json and the exit message carry.
@@ -84,7 +86,10 @@ private:
             s << "particle " << f.particle << " of species " << f.species << " at (" << f.position[0] << ", "
               << f.position[1] << ", " << f.position[2] << ") m with velocity (" << f.velocity[0] << ", "
               << f.velocity[1] << ", " << f.velocity[2] << ") m/s: ";
-        s << f.quantity << " is " << f.value << ", limit " << f.limit << "; " << advice;
+        s << f.quantity << " is " << f.value << ", limit " << f.limit;
+        if (!f.term.empty()) s << ", made by " << f.term;
+        if (f.other >= 0) s << (f.term.empty() ? ", of it and particle " : " with particle ") << f.other;
+        s << "; " << advice;
         return s.str();
     }
     std::string message_, name_;
@@ -123,6 +128,22 @@ struct IndexOverflow : Stop {
     [[gnu::cold]] explicit IndexOverflow(StopFacts f)
         : Stop("IndexOverflow", std::move(f),
                "a particle is too far from the origin for the cell index: bound the domain")
+    {}
+};
+struct EosDomain : Stop {
+    [[gnu::cold]] explicit EosDomain(StopFacts f)
+        : Stop("EosDomain", std::move(f),
+               "the equation of state has no meaning there: take a smaller dt or cfl, a larger c0, or more dissipation")
+    {}
+};
+struct CoincidentParticles : Stop {
+    [[gnu::cold]] explicit CoincidentParticles(StopFacts f)
+        : Stop("CoincidentParticles", std::move(f), "a contact of two at one place has no normal: move one of them")
+    {}
+};
+struct OverlapTooDeep : Stop {
+    [[gnu::cold]] explicit OverlapTooDeep(StopFacts f, std::string const& advice)
+        : Stop("OverlapTooDeep", std::move(f), advice)
     {}
 };
 

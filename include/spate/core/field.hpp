@@ -63,6 +63,7 @@ template <Field F, int Dim, class V>
 using Value = typename detail::ValueOf<F::rank, components<F, Dim>, V>::type;
 
 struct AngularVelocity;
+struct Dissipated;
 struct Velocity;
 struct Density;
 
@@ -80,10 +81,19 @@ inline constexpr struct TransportVelocity : VectorField { static constexpr std::
 inline constexpr struct Position : VectorField     { static constexpr std::string_view name = "position", unit = "m"; static constexpr Kind kind = Kind::drift; using rates = Fields<TransportVelocity, Velocity>; } position{};
 inline constexpr struct AngularAcceleration : AxialField { static constexpr std::string_view name = "angular_acceleration", unit = "rad/s^2"; using rate_of = AngularVelocity; static constexpr bool derived = true; } angular_acceleration{};
 inline constexpr struct AngularVelocity : AxialField { static constexpr std::string_view name = "angular_velocity", unit = "rad/s"; static constexpr Kind kind = Kind::kick; using rates = Fields<AngularAcceleration>; } angular_velocity{};
+/// What the contacts of a particle lose, where a model counts it; a kick field, since its rate is at hand with the forces.
+inline constexpr struct DissipationRate : ScalarField { static constexpr std::string_view name = "dissipation_rate", unit = "W"; using rate_of = Dissipated; static constexpr bool derived = true; } dissipation_rate{};
+inline constexpr struct Dissipated : ScalarField  { static constexpr std::string_view name = "dissipated", unit = "J"; static constexpr Kind kind = Kind::kick; using rates = Fields<DissipationRate>; } dissipated{};
 /// For a term that keeps something of a pair: the time since it was kept.
 inline constexpr struct Elapsed : ScalarField     { static constexpr std::string_view name = "elapsed", unit = "s"; } elapsed{};
+/// In records of pairs that compute in less than the state has: what the position has lost there.
+inline constexpr struct PositionTail : VectorField { static constexpr std::string_view name = "position_tail", unit = "m"; static constexpr bool derived = true; } position_tail{};
 /// Where a particle was when the neighbour lists were built: lists, bins and order are functions of it alone.
 inline constexpr struct BuildPosition : VectorField { static constexpr std::string_view name = "build_position", unit = "m"; } build_position{};
 // clang-format on
+
+/// Moment of inertia of a round particle over m R^2 [-]: of a disc about its axis, of a sphere.
+template <int Dim>
+inline constexpr double inertia = Dim < 3 ? 0.5 : 0.4;
 
 } // namespace spate

@@ -58,6 +58,13 @@ inline constexpr bool has_self = requires
     requires T::self;
 };
 
+/// Whether a term knows the elastic energy of a contact: energy(ij), or energy(i, j, ij).
+template <class T>
+inline constexpr bool stores_energy = requires
+{
+    requires T::stores_energy;
+};
+
 /// The part a species plays: mobile ones obey the equations of motion, markers belong to a boundary.
 enum class Role { any, mobile, marker };
 /// Target <- source.

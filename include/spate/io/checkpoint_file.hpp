@@ -69,18 +69,17 @@ inline std::array<char, checkpoint_header> header_of(int version, std::uint64_t 
 /// Refuses bytes that are not those which were written.
 inline void check_header(State const& state, std::span<std::byte const> file)
 {
-    std::string head(std::min(file.size(), checkpoint_header), '\0');
-    std::memcpy(head.data(), file.data(), head.size());
+    std::string head;
+    for (const std::byte b : file.first(std::min(file.size(), checkpoint_header))) head += static_cast<char>(b);
     int version = -1;
     unsigned long long size = 0, sum = 0;
-    const int read =
-        std::sscanf(head.c_str(), "spate checkpoint\nversion %9d\nbytes %19llu\nchecksum %16llx", &version, &size, &sum);
+    const int read = std::sscanf(head.c_str(), "spate checkpoint\nversion %9d\nbytes %19llu\nchecksum %16llx", &version,
+                                 &size, &sum);
     if (read < 1) state.refuse("no checkpoint: it does not begin like one");
     if (version != checkpoint_version)
-        state.refuse("of version " + std::to_string(version) + ", and this program reads version " +
-                     std::to_string(checkpoint_version));
+        state.refuse("of version " + text(version) + ", and this program reads version " + text(checkpoint_version));
     if (file.size() < checkpoint_header || (read >= 2 && file.size() < size))
-        state.refuse("cut off after " + std::to_string(file.size()) + " bytes");
+        state.refuse("cut off after " + text(double(file.size())) + " bytes");
     const auto due = header_of(version, size, sum);
     if (read != 3 || file.size() != size || std::memcmp(due.data(), head.data(), due.size()) != 0 ||
         checksum(file.subspan(checkpoint_header)) != sum)
@@ -101,11 +100,14 @@ inline std::vector<std::byte> bytes_of(std::filesystem::path const& file, State 
     for (auto const& [name, text] : state.texts)
         in_folder(name, [&, t = text](hid_t folder, std::string const& rest) { image.text(folder, rest, t); });
     for (auto const& [name, table] : state.tables)
-        in_folder(name, [&, columns = table.columns, v = std::cref(table.values)](hid_t folder, std::string const& rest) {
-            std::visit([&]<class T>(std::vector<T> const& values) {
-                image.dataset(folder, rest, std::span<T const>(values), columns);
-            }, v.get());
-        });
+        in_folder(name,
+                  [&, columns = table.columns, v = std::cref(table.values)](hid_t folder, std::string const& rest) {
+                      std::visit(
+                          [&]<class T>(std::vector<T> const& values) {
+                              image.dataset(folder, rest, std::span<T const>(values), columns);
+                          },
+                          v.get());
+                  });
     return image.bytes();
 }
 

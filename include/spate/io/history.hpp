@@ -42,13 +42,19 @@ public:
     {
         for (int c = 0; c < Dim; ++c) add(value[c]);
     }
+    template <int Dim>
+    void add(Eigen::Matrix<double, Dim, Dim> const& value)
+    {
+        for (int a = 0; a < Dim; ++a)
+            for (int b = 0; b < Dim; ++b) add(value(a, b));
+    }
     std::string const& text() const { return text_; }
 
 private:
     std::string text_;
 };
 
-/// "front" for a number, "force_x", "force_y", ... for a vector.
+/// "front" for a number, "force_x", "force_y", ... for a vector, "stress_xx", "stress_xy", ... for a tensor.
 inline std::vector<std::string> headings(std::string const& name, double) { return {name}; }
 template <int Dim>
 [[gnu::cold]] std::vector<std::string> headings(std::string const& name, Vec<Dim, double>)
@@ -58,11 +64,20 @@ template <int Dim>
     return all;
 }
 
+template <int Dim>
+[[gnu::cold]] std::vector<std::string> headings(std::string const& name, Eigen::Matrix<double, Dim, Dim> const&)
+{
+    std::vector<std::string> all;
+    for (int a = 0; a < Dim; ++a)
+        for (int b = 0; b < Dim; ++b) all.push_back(name + "_" + "xyz"[a] + "xyz"[b]);
+    return all;
+}
+
 } // namespace detail
 
 /// History{directory, 0.001, Front{...}, Probe{...}}: an output of Simulation::run. A column is anything with a name that,
-/// called with the scene, returns a number or a vector, or a range of such columns. Rows grow in history.csv.tmp and are
-/// history.csv when the run ends. A run that goes on keeps the rows that it had.
+/// called with the scene, returns a number, a vector or a tensor, or a range of such columns. Rows grow in
+/// history.csv.tmp and are history.csv when the run ends. A run that goes on keeps the rows that it had.
 template <class... Column>
 class History {
 public:
@@ -191,6 +206,8 @@ private:
         for (auto* name : {"step", "t", "dt", "dt_criterion", "kinetic", "potential"}) add(name);
         add(has_density<Scene> ? "compressive" : "elastic");
         add(scene.driven() ? "dissipated_less_work" : "dissipated"); // the work of walls and forces is not known apart
+        if constexpr (Scene::writes_energy)
+            add("reinitialised"); // what re-initialisation gave: part of what is not dissipated
         for (auto const& name : detail::headings("momentum", scene.momentum())) add(name);
         if constexpr (has_density<Scene>) add("volume");
         for (auto const& name : detail::headings("gravity_impulse", scene.momentum())) add(name);
@@ -234,6 +251,7 @@ private:
         row.add(scene.criterion());
         for (double part : {e.kinetic, e.potential, e.internal, so_far_.start - (e.total() - came.energy())})
             row.add(part);
+        if constexpr (Scene::writes_energy) row.add(scene.written_energy());
         row.add(scene.momentum());
         if constexpr (has_density<Scene>) row.add(scene.volume());
         const double changed = // 0 where the mass has always been the same

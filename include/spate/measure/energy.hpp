@@ -11,11 +11,13 @@ namespace spate {
 
 /// [J], of all mobile particles.
 struct Energy {
-    double kinetic = 0;   ///< sum m v^2 / 2
-    double potential = 0; ///< -sum m g . x
-    double internal = 0;  ///< compressive: sum m e(rho); elastic: stored in contacts
+    double kinetic = 0;    ///< sum m v^2 / 2
+    double potential = 0;  ///< -sum m g . x
+    double internal = 0;   ///< compressive: sum m e(rho); elastic: stored in contacts
+    double rotational = 0; ///< sum I omega^2 / 2
+    double dissipated = 0; ///< lost in contacts since the start, where the model counts it
 
-    [[nodiscard]] double total() const { return kinetic + potential + internal; }
+    [[nodiscard]] double total() const { return kinetic + rotational + potential + internal; }
 };
 
 /// \param s  a system    \param eos  its equation of state, or a pointer to nothing
@@ -35,6 +37,12 @@ Energy energy_of(S const& s, Eos const* eos, Vec<Dim, double> const& g)
     if constexpr (!std::is_void_v<Eos> && Q::template has<Density>)
         e.internal = s.sum([&](std::size_t i) { return mass_of(i) * eos->energy_of(p.at(density, i)); });
     else e.internal = s.pair_energy() + s.wall_energy();
+    if constexpr (Q::template has<AngularVelocity>)
+        e.rotational = s.sum([&](std::size_t i) {
+            const double r = p.at(radius, i);
+            return 0.5 * inertia<Dim> * mass_of(i) * r * r * p.at(angular_velocity, i).squaredNorm();
+        });
+    if constexpr (Q::template has<Dissipated>) e.dissipated = s.sum([&](std::size_t i) { return p.at(dissipated, i); });
     return e;
 }
 
@@ -50,16 +58,16 @@ struct Some {
     {
         return system.sum([&](std::size_t i) { return is[i] != 0 ? f(i) : 0.0; });
     }
+    [[nodiscard]] double wall_energy() const
+    {
+        return system.wall_energy([&](std::size_t i) { return is[i] != 0; });
+    }
     [[nodiscard]] double pair_energy() const
     {
         if (!contacts) return 0;
         return system.pair_energy([&](std::size_t i, std::size_t j) {
             return is[i] == 0 ? 0.0 : is[j] != 0 ? 0.5 : 1.0;
         });
-    }
-    [[nodiscard]] double wall_energy() const
-    {
-        return contacts ? sum([&](std::size_t i) { return system.wall_energy_of(i); }) : 0;
     }
 };
 

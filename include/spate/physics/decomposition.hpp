@@ -36,8 +36,8 @@ struct Undivided {
     static constexpr Alone ranks() { return {}; }
 };
 
-/// \tparam R  the ranks    \tparam Species  at most two
-template <int Dim, class T, int Species, class R>
+/// \tparam T  of columns    \tparam S  of records    \tparam R  the ranks    \tparam Species  at most two
+template <int Dim, class T, class S, int Species, class R>
 class Decomposition {
 public:
     using Flying = std::remove_cvref_t<decltype(std::declval<R const&>().exchange({}, {}, 0))>;
@@ -80,9 +80,10 @@ public:
             if (home[i] == ranks_.rank()) stay.push_back(std::int32_t(i));
             else if (i < owned(s)) away[home[i]].push_back(std::int32_t(i));
         }
-        for (auto const& [rank, which] : away) {
+        for (auto const& leaving : away) {
+            auto const& which = leaving.second; // clang 14 hands no binding to a lambda
             report_.moved += std::int64_t(which.size());
-            Message& m = to[rank];
+            Message& m = to[leaving.first];
             m.put(s);
             m.put(picked(particles.id(), which));
             for_each(P::fields, [&](auto f) {
@@ -130,16 +131,16 @@ public:
     // ---- values on their way
     /// Sends values of those particles of a species that others have asked for; `put(i, to)` writes those of particle i,
     /// `land(i, from)` will take those of foreign particle i. \param count  values a particle
-    void send(int s, std::size_t count, auto const& put, std::function<void(std::int32_t, T const*)> land)
+    void send(int s, std::size_t count, auto const& put, std::function<void(std::int32_t, S const*)> land)
     {
         finish(s);
         auto& air = air_[std::size_t(s)];
         auto const& halo = halo_[std::size_t(s)];
         const auto out = packets(air.out, halo.out(), count), in = packets(air.in, halo.in(), count);
-        T* to = air.out.data();
+        S* to = air.out.data();
         for (auto const& l : halo.out())
             for (auto const i : l.particle) put(i, to), to += count;
-        report_.messages += std::int64_t(out.size()), report_.bytes += std::int64_t(air.out.size() * sizeof(T));
+        report_.messages += std::int64_t(out.size()), report_.bytes += std::int64_t(air.out.size() * sizeof(S));
         air.count = count;
         air.land = std::move(land);
         air.flying.emplace(ranks_.exchange(out, in, s));
@@ -263,11 +264,11 @@ public:
 
 private:
     struct Air {
-        std::vector<T> out, in; // persistent
+        std::vector<S> out, in; // persistent
         std::size_t count = 0;
         std::optional<Flying> flying;
         std::vector<char> missing; // by link
-        std::function<void(std::int32_t, T const*)> land;
+        std::function<void(std::int32_t, S const*)> land;
     };
 
     template <class X>
@@ -287,15 +288,15 @@ private:
     {
         m.take(std::span<T>(a.data() + first, n));
     }
-    static std::vector<Packet> packets(std::vector<T>& buffer, std::vector<Link> const& links, std::size_t count)
+    static std::vector<Packet> packets(std::vector<S>& buffer, std::vector<Link> const& links, std::size_t count)
     {
         std::size_t n = 0;
         for (auto const& l : links) n += l.particle.size() * count;
         buffer.resize(n);
         std::vector<Packet> all;
-        T* at = buffer.data();
+        S* at = buffer.data();
         for (auto const& l : links) {
-            all.push_back({l.rank, std::as_writable_bytes(std::span<T>(at, l.particle.size() * count))});
+            all.push_back({l.rank, std::as_writable_bytes(std::span<S>(at, l.particle.size() * count))});
             at += l.particle.size() * count;
         }
         return all;
@@ -318,7 +319,7 @@ private:
             return -1;
         }
         auto const& in = halo_[std::size_t(s)].in();
-        T const* from = air.in.data();
+        S const* from = air.in.data();
         for (int b = 0; b < l; ++b) from += in[std::size_t(b)].particle.size() * air.count;
         for (auto const i : in[std::size_t(l)].particle) air.land(i, from), from += air.count;
         air.missing[std::size_t(l)] = 0;

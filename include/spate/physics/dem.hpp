@@ -4,10 +4,14 @@
 /// a contact takes from the others.
 #pragma once
 
+#include "spate/physics/dem/by_material.hpp"
 #include "spate/physics/dem/dashpot.hpp"
 #include "spate/physics/dem/discs.hpp"
 #include "spate/physics/dem/friction.hpp"
+#include "spate/physics/dem/hertz.hpp"
 #include "spate/physics/dem/linear_spring.hpp"
+#include "spate/physics/dem/mindlin.hpp"
+#include "spate/physics/dem/rolling_resistance.hpp"
 #include "spate/physics/gravity.hpp"
 #include "spate/physics/physics.hpp"
 
@@ -24,7 +28,7 @@ auto dem(Grain grain, T... term)
     require_positive("Grain.mass", grain.mass, "kg");
     require_positive("Grain.radius", grain.radius, "m");
     return physics(Round<Dim>{grain.radius}, Uniform{mass, grain.mass}, Uniform{radius, grain.radius},
-                   detail::completed(term, term...)...);
+                   detail::completed_in<detail::most_materials<T...>>(term, term...)...);
 }
 
 /// Grains of many sizes; mass and radius are fields: `dem<2>(Mixture{.largest = 0.02}, LinearSpring{.k = 1e5})`.
@@ -34,7 +38,7 @@ struct Mixture {
 template <int Dim, class... T>
 auto dem(Mixture mixture, T... term)
 {
-    return physics(Round<Dim>{mixture.largest}, detail::completed(term, term...)...);
+    return physics(Round<Dim>{mixture.largest}, detail::completed_in<detail::most_materials<T...>>(term, term...)...);
 }
 
 } // namespace spate

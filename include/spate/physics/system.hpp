@@ -28,6 +28,9 @@ public:
     using M = Model<P, B>;
     using T = typename Precision::real;
     using V = typename Precision::value;
+    using PairV = pair_value<Precision>;
+    using PairT = scalar_t<PairV>;
+    static constexpr bool mixed = !std::same_as<PairT, T>;
     static constexpr int dim = M::dim;
     static constexpr int species_count = M::species;
     static constexpr std::size_t task = 2048; ///< particles in a task of a pass; a multiple of every pack
@@ -39,22 +42,28 @@ public:
     static constexpr bool any_pairs =
         M::planner.meet(0, 0) || (species_count == 2 && (M::planner.meet(0, 1) || M::planner.meet(1, 0)));
 
+    /// A record in pairs that compute in less than the state has holds positions in two parts.
+    static constexpr auto in_pairs(auto set)
+    {
+        if constexpr (mixed) return set | Fields{position_tail};
+        else return set;
+    }
     template <int s>
     using ParticlesOf = Particles<dim, T, Set<M::template stored<s>()>, Set<M::template uniform<s>()>>;
     template <int s>
     struct Species {
         ParticlesOf<s> particles;
         Binning<dim> bins;
-        Packed<dim, T, Set<M::template record<s>()>> packed;
+        Packed<dim, PairT, Set<in_pairs(M::template record<s>())>> packed;
         Particles<dim, T, Set<M::template evolving<s>()>, Fields<>> start; ///< of the step, for integrators that save
     };
 
     /// Those who share the scene: the backend's ranks, or nobody.
     using Party = decltype(ranks_of(std::declval<Workers const&>()));
     static constexpr bool alone = Party::alone;
-    using Parts = std::conditional_t<alone, Undivided, Decomposition<dim, T, species_count, Party>>;
+    using Parts = std::conditional_t<alone, Undivided, Decomposition<dim, T, PairT, species_count, Party>>;
 
-    /// \param saves  whether the integrator needs the start of the step
+    /// \param saves  whether anyone needs the start of a step: an integrator, or the watch
     System(P physics, B boundary, Workers backend, Neighbours neighbours, bool saves)
         : physics_(std::move(physics)), boundary_(std::move(boundary)), backend_(backend), neighbours_(neighbours),
           saves_(saves), grid_({}, Edges<dim>(Edge::open), 1, 1, 1), terms_(M::terms_of(physics_, boundary_)),
@@ -190,7 +199,7 @@ public:
         if (!have_lists_ || !lists_know_all()) return;
         each_memory([&](auto s, auto q, auto& aside, auto& memory) {
             aside.take(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
-                       species<q()>().particles, species<q()>().bins, width<V>, foreign<q()>());
+                       species<q()>().particles, species<q()>().bins, width<PairV>, backend_, foreign<q()>());
         });
         have_lists_ = false;
     }
@@ -215,6 +224,7 @@ public:
     {
         if (!any_pairs || !have_lists_) return !have_lists_;
         const double range = physics_.interaction.range(), most = closing(e, t, t2);
+        if (!(e.moved <= wrap_after_)) return true; // together, perhaps, but far from where it is wrapped to
         if (most <= skins_.least() * range) return false;
         if (!neighbours_.local || !std::isfinite(most)) return true;
         return ranks().all(outrun(t, 2 * t2 * e.acceleration), agree::Or{});
@@ -234,6 +244,11 @@ public:
         double marker = M::markers ? e.moved + t * e.speed + t2 * e.acceleration : 0;
         if constexpr (M::moves) marker += e.wall_moved + t * e.wall_speed;
         return pair > marker ? pair : marker;
+    }
+    /// Beyond this distance from the origin places are rounded by a hundredth of the length that forces vary over [m].
+    [[nodiscard]] double farthest() const
+    {
+        return 0.02 * physics_.interaction.length() / double(std::numeric_limits<T>::epsilon());
     }
     void forget_lists()
     {
@@ -284,7 +299,7 @@ public:
                     if (have_lists_)
                         now.take(lists<s(), q()>(), memory_[std::size_t(s() * species_count + q())],
                                  species<s()>().particles, species<s()>().bins, species<q()>().particles,
-                                 species<q()>().bins, width<V>, foreign<q()>());
+                                 species<q()>().bins, width<PairV>, backend_, foreign<q()>());
                     f(s, q, now.pairs());
                 }
             });
@@ -407,6 +422,27 @@ public:
             });
         });
     }
+    /// The evolving fields as they were when save() was called, what derives from them zero; false if the particles are others
+    /// now.
+    [[gnu::cold]] bool restore()
+    {
+        bool same = true;
+        each_species([&](auto s) {
+            auto& x = species<s()>();
+            same = same && x.start.size() == x.particles.size();
+            if (!same) return;
+            for_each(M::template evolving<s()>(), [&](auto f) {
+                for (std::size_t c = 0; c < std::size(x.particles.column(f)); ++c)
+                    x.particles.column(f)[c] = x.start.column(f)[c];
+            });
+            for_each(x.particles.fields, [&](auto f) { // of the state of now
+                if constexpr (decltype(f)::derived)
+                    for (auto& column : x.particles.column(f)) std::fill(column.begin(), column.end(), T(0));
+            });
+        });
+        kick_rates_ = false;
+        return same;
+    }
     /// y = y at the start of the step + dt * rate.
     template <class... F, class... G>
     void advance_saved(Fields<F...> first, Fields<G...> then, double dt)
@@ -444,7 +480,8 @@ public:
             for (std::size_t i = first; i < last; ++i) *to++ = f(i);
         });
     }
-    /// Half the sum over directed pairs of what the terms of contact store, energy(ij) [J]; lists must be current.
+    /// Half the sum over directed pairs of what the terms of contact store, energy(ij) or energy(i, j, ij) [J]; lists must be
+    /// current.
     [[nodiscard]] double pair_energy() const
     {
         return pair_energy([](std::size_t, std::size_t) { return 0.5; });
@@ -455,7 +492,7 @@ public:
         ExactSum total;
         std::mutex lock;
         if constexpr (M::planner.meet(0, 0) && has_pair_energy) {
-            if constexpr (!alone) bring_records<0, M::mask(Interaction::reads & ParticlesOf<0>::fields)>();
+            if constexpr (!alone) bring_records<0, M::mask(read_for_energy() & ParticlesOf<0>::fields)>();
             backend_.for_each(species<0>().bins.cells(), [&](std::size_t cell) {
                 const ExactSum mine = pair_energy_of(cell, share);
                 const std::lock_guard hold(lock);
@@ -476,21 +513,28 @@ public:
     /// The sum of that.
     [[nodiscard]] double wall_energy() const
     {
+        return wall_energy([](std::size_t) { return true; });
+    }
+    /// The same of the particles that count.
+    [[nodiscard]] double wall_energy([[maybe_unused]] auto const& counts) const
+    {
         constexpr bool any = []<class... X>(std::tuple<X...> const*) {
             return (false || ... || requires { X::pushes; });
         }(static_cast<typename M::Terms const*>(nullptr));
-        if constexpr (any) return sum([&](std::size_t i) { return wall_energy_of(i); });
+        if constexpr (any) return sum([&](std::size_t i) { return counts(i) ? wall_energy_of(i) : 0.0; });
         else return 0;
     }
     /// What terms of a boundary without markers do to the particles: f(i, sums) with all that they add to particle i.
     void wall_sums(auto const& f) const
     {
         using Sums = Record<dim, double, Set<(Fields<>{} | M::wall_adds)>>;
+        auto terms = terms_;
+        carry_at_walls(terms, Carry{due_});
         for (std::size_t i = 0; i < mobile().size(); ++i) {
             Sums sums;
             clear(sums);
             Pushing<Sums> view{{mobile(), i}, sums};
-            detail::each_in(terms_, [&]<class X>(X const& t) {
+            detail::each_in(terms, [&]<class X>(X const& t) {
                 if constexpr (requires { X::pushes; }) t(view);
             });
             f(i, sums);
@@ -520,15 +564,34 @@ public:
     }
     /// Whether a particle bounced too often within one step.
     [[nodiscard]] bool lost() const { return lost_; }
+    /// The sum of what visit(sum, i, j, x, ij, force) makes of each directed contact i <- j of mobile particles: x = x_i - x_j
+    /// [m], ij what terms see, force on i [N]. Lists must be current. Cells come in any order, so a Sum must not depend on it.
+    template <class Sum>
+    [[nodiscard]] Sum over_contacts(auto const& visit) const
+    {
+        static_assert(M::planner.meet(0, 0), "spate: contacts need a pair term, such as LinearSpring");
+        Sum total{};
+        std::mutex lock;
+        backend_.for_each(species<0>().bins.cells(), [&](std::size_t cell) {
+            Sum mine{};
+            each_contact(cell, [&](auto const&... what) { visit(mine, what...); });
+            const std::lock_guard hold(lock);
+            total += mine;
+        });
+        return total;
+    }
     /// Bytes of all that is kept for the particles: columns, records, lists, bins.
     [[nodiscard, gnu::cold]] std::size_t bytes() const
     {
         std::size_t b = 0;
         each_species([&](auto s) {
             auto const& x = species<s()>();
-            b += x.particles.bytes() + x.start.bytes() + x.bins.bytes() + x.packed.data.capacity() * sizeof(T);
+            b += x.particles.bytes() + x.start.bytes() + x.bins.bytes() + x.packed.data.capacity() * sizeof(PairT);
         });
         for (auto const& l : lists_) b += l.bytes();
+        for (auto const& of_species : memory_)
+            for (auto const& of_cell : of_species) b += of_cell.capacity() * sizeof(T);
+        std::apply([&](auto const&... aside) { ((b += aside.bytes()), ...); }, aside_);
         b += skins_.bytes();
         return b;
     }
@@ -577,7 +640,8 @@ public:
         auto now = std::get<std::size_t(s * species_count + q)>(aside_);
         if (have_lists_)
             now.take(lists<s, q>(), memory_[std::size_t(s * species_count + q)], species<s>().particles,
-                     species<s>().bins, species<q>().particles, species<q>().bins, width<V>, foreign<q>());
+                     species<s>().bins, species<q>().particles, species<q>().bins, width<PairV>, backend_,
+                     foreign<q>());
         return now.pairs();
     }
     /// Makes room for the particles that have been added since.
@@ -637,6 +701,9 @@ public:
     void use(Grid<dim> grid)
     {
         grid_ = std::move(grid);
+        wrap_after_ = std::numeric_limits<double>::infinity();
+        for (int c = 0; c < dim; ++c)
+            if (grid_.periodic(c)) wrap_after_ = std::min(wrap_after_, grid_.period(c));
         forget_lists();
     }
     /// The sums of chosen terms on the mobile particles over one source only, without touching the rates: the force of a
@@ -644,14 +711,7 @@ public:
     template <int source>
     void partial_sums(auto const& finish)
     {
-        static constexpr Mask pair_terms = [] {
-            Mask m = 0;
-            for (int t = 0; t < M::terms; ++t)
-                if (M::planner.on(t, 0) && M::planner.from(t, 0, source) &&
-                    M::planner.term[std::size_t(t)].when == When::evaluation)
-                    m |= Mask(1) << t;
-            return m;
-        }();
+        static constexpr Mask pair_terms = pair_terms_from(source);
         auto& p = mobile();
         constexpr auto sums = M::template fields<added(pair_terms)>();
         Particles<dim, T, Set<sums>, Fields<>> kept;
@@ -704,34 +764,36 @@ private:
         return all;
     }
     static constexpr bool has_pair_energy = []<class... X>(std::tuple<X...> const*) {
-        return (false || ... || requires { X::stores_energy; });
+        return (false || ... || stores_energy<X>);
     }(static_cast<typename M::Terms const*>(nullptr));
-    /// Of the targets in a cell: what is out of range is passed over.
+    /// Of the targets in a cell. Both copies of a pair store the same: one is counted, but for images and others' particles.
     [[nodiscard]] ExactSum pair_energy_of(std::size_t cell, auto const& share) const
     {
         auto const& p = mobile();
         auto const& bins = species<0>().bins;
         auto const& lists = this->template lists<0, 0>().of_cell(cell);
-        constexpr auto W = std::size_t(width<V>);
+        auto const& x = p.column(position);
+        constexpr auto W = std::size_t(width<PairV>);
         constexpr auto stride = std::uint32_t(Layout<dim, Set<M::template record<0>()>>::stride);
         const std::size_t n = p.size(), first = std::size_t(bins.begin(cell));
-        const auto ui = p.template uniforms<double>();
-        const double range2 = physics_.interaction.range() * physics_.interaction.range();
+        const double most2 = physics_.interaction.range() * physics_.interaction.range() * (1 + 1e-6);
         ExactSum sum;
         for (std::size_t block = 0; block + 1 < lists.begin.size(); ++block)
             for (auto row = std::size_t(lists.begin[block]); row < std::size_t(lists.begin[block + 1]); ++row)
                 for (std::size_t lane = 0; lane < W; ++lane) {
                     const std::size_t j = std::uint32_t(lists.index[row * W + lane]) / stride;
-                    if (j == n) continue;
                     const std::size_t i = first + std::size_t(lists.target[block * W + lane]);
-                    if (j < n && (p.at(position, i) - p.at(position, j)).squaredNorm() > range2 * (1 + 1e-6)) continue;
-                    const double part = share(i, particle_of(j));
-                    if (part == 0) continue;
-                    const auto ri = double_record(p, i), rj = double_record_of(j);
-                    const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, ui, rj, ui);
-                    detail::each_in(terms_, [&](auto const& t) {
-                        if constexpr (requires { t.energy(ij); }) sum.add(part * t.energy(ij));
-                    });
+                    if (j <= i || j == n) continue;
+                    double d2 = 0;
+                    for (std::size_t c = 0; j < n && c < std::size_t(dim); ++c) {
+                        const double d = double(x[c][i]) - double(x[c][j]);
+                        d2 += d * d;
+                    }
+                    if (!(d2 < most2)) continue;
+                    const std::size_t of = particle_of(j);
+                    const double part = share(i, of) + (j < n ? share(j, i) : 0);
+                    if (part != 0)
+                        add_pair_energy(sum, part, cell, row, lane, double_record(p, i), double_record_of(j));
                 }
         return sum;
     }
@@ -783,7 +845,7 @@ private:
     {
         auto const& packed = species<0>().packed;
         using L = typename std::remove_cvref_t<decltype(packed)>::L;
-        Record<dim, double, Set<(Interaction::reads & ParticlesOf<0>::fields)>> r;
+        Record<dim, double, Set<(read_for_energy() & ParticlesOf<0>::fields)>> r;
         for_each(r.fields, [&]<class F>(F f) {
             T const* at = packed.data.data() + j * std::size_t(L::stride) + L::template offset<F>;
             if constexpr (F::rank == 0) r[f] = double(*at);
@@ -791,6 +853,14 @@ private:
                 for (int c = 0; c < dim; ++c) r[f][c] = double(at[c]);
         });
         return r;
+    }
+    /// Tells terms that keep something of contacts with walls what a sweep does with it.
+    static void carry_at_walls(typename M::Terms& terms, Carry const& carry)
+    {
+        auto one = [&](auto& t) {
+            if constexpr (requires { t.carry(0.0, true, 1.0); }) t.carry(carry.elapsed, carry.keep, carry.reach);
+        };
+        std::apply([&](auto&... t) { (one(t), ...); }, terms);
     }
     template <class X>
     [[nodiscard]] X radius_at(std::size_t i) const
@@ -808,6 +878,7 @@ private:
     /// The same, with sums of its own to add to.
     template <class Sums>
     struct Pushing {
+        static constexpr bool only_shown = true;
         AsDouble particle;
         Sums& sums;
         template <Field F>
@@ -817,11 +888,114 @@ private:
             else return particle[f];
         }
     };
+    /// Terms of an evaluation that act on the mobile particles from a source.
+    static constexpr Mask pair_terms_from(int source)
+    {
+        Mask m = 0;
+        for (int t = 0; t < M::terms; ++t)
+            if (M::planner.on(t, 0) && M::planner.from(t, 0, source) &&
+                M::planner.term[std::size_t(t)].when == When::evaluation)
+                m |= Mask(1) << t;
+        return m;
+    }
+    /// f(i, j, x, ij, force) for the contacts of one cell's particles, by the terms in double; memory is shown, not kept.
+    void each_contact(std::size_t cell, auto const& f) const
+    {
+        static constexpr Mask terms = pair_terms_from(0);
+        using Ri = Record<dim, double, Set<M::template fields<read_of_target(terms, 0)>()>>;
+        using Rj = Record<dim, double, Set<M::template record<0>()>>;
+        using K = Set<kept<0, 0>()>;
+        auto const& p = mobile();
+        auto const& images = species<0>().bins.images();
+        auto const& all = this->template lists<0, 0>();
+        auto const& lists = all.of_cell(cell);
+        const auto u = p.template uniforms<double>();
+        const auto first = std::size_t(species<0>().bins.begin(cell)), n = p.size(), W = std::size_t(width<PairV>);
+        for (std::size_t b = 0; b + 1 < lists.begin.size(); ++b)
+            for (auto row = std::size_t(lists.begin[b]); row < std::size_t(lists.begin[b + 1]); ++row)
+                for (std::size_t lane = 0; lane < W; ++lane) {
+                    const std::size_t entry = all.number(lists.index[row * W + lane]);
+                    if (entry == n) continue;
+                    const std::size_t i = first + std::size_t(lists.target[b * W + lane]);
+                    const std::size_t j = entry < n ? entry : std::size_t(images.of[entry - n - 1]);
+                    Ri ri = record_in_double<Ri>(p, i);
+                    Rj rj = record_in_double<Rj>(p, j);
+                    if (entry > n) rj[position] += shift_of(images.code[entry - n - 1], grid_);
+                    const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, u, rj, u);
+                    if (!ij.mask) continue;
+                    typename detail::Kept<dim, double, K>::Seen seen;
+                    seen.elapsed = due_;
+                    remembered<K>(seen, memory_[0], cell, row, lane);
+                    Record<dim, double, Set<M::template fields<added(terms)>()>> sums;
+                    clear(sums);
+                    detail::apply_all<terms>(terms_, ri, u, rj, u, sums, ij,
+                                             std::make_index_sequence<std::size_t(M::terms)>{}, &seen);
+                    f(i, j, ri[position] - rj[position], ij, p.at(mass, i) * sums[acceleration]);
+                }
+    }
+    /// What is kept of the pair at a place of the lists.
+    template <class K>
+    static void remembered(auto& to, auto const& memory, std::size_t cell, std::size_t row, std::size_t lane)
+    {
+        if constexpr (K::size > 0) {
+            using L = Layout<dim, K>;
+            constexpr int W = width<PairV>;
+            const auto value = [&](int k) {
+                return double(memory[cell][PairMemory<T, L::count>::place(row, k, W) + lane]);
+            };
+            for_each(K{}, [&]<class F>(F field) {
+                if constexpr (F::rank == 0) to[field] = value(L::template offset<F>);
+                else
+                    for (int c = 0; c < components<F, dim>; ++c) to[field][c] = value(L::template offset<F> + c);
+            });
+        }
+    }
+    template <class R>
+    static R record_in_double(auto const& p, std::size_t i)
+    {
+        R r;
+        for_each(R::fields, [&](auto f) { r[f] = p.at(f, i); });
+        return r;
+    }
+    /// What the terms that store energy read of a pair, or keep.
+    static constexpr auto read_for_energy()
+    {
+        return []<class... X>(std::tuple<X...> const*) {
+            auto one = []<class Y>(Y const*) {
+                if constexpr (stores_energy<Y>) return reads_i<Y>() | reads_j<Y>();
+                else return Fields<>{};
+            };
+            return (Interaction::reads | ... | one(static_cast<X const*>(nullptr)));
+        }(static_cast<typename M::Terms const*>(nullptr));
+    }
     static auto double_record(auto const& p, std::size_t i)
     {
-        Record<dim, double, Set<(Interaction::reads & ParticlesOf<0>::fields)>> r;
+        Record<dim, double, Set<(read_for_energy() & ParticlesOf<0>::fields)>> r;
         for_each(r.fields, [&](auto f) { r[f] = p.at(f, i); });
         return r;
+    }
+    /// \param part  of the energy of a pair that counts
+    void add_pair_energy(ExactSum& sum, double part, std::size_t cell, std::size_t row, std::size_t lane,
+                         auto const& ri, auto const& rj) const
+    {
+        const auto u = mobile().template uniforms<double>();
+        const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, u, rj, u);
+        if constexpr (requires { ij.mask; })
+            if (!ij.mask) return;
+        using Seen = typename detail::Kept<dim, double, Set<kept<0, 0>()>>::Seen;
+        Seen seen;
+        seen.elapsed = due_;
+        remembered<Set<kept<0, 0>()>>(seen, memory_[0], cell, row, lane);
+        detail::each_in(terms_, [&]<class X>(X const& t) {
+            if constexpr (requires { t.energy(ij); }) sum.add(part * t.energy(ij));
+            else if constexpr (stores_energy<X>) {
+                Record<dim, double, Set<adds<X>()>> sums;
+                clear(sums);
+                detail::apply(t, ri, u, rj, u, sums, ij, &seen); // what it keeps comes along to where the positions are
+                detail::with_views<X>(ri, u, rj, u, sums, ij, &seen,
+                                      [&](auto const& a, auto const& b) { sum.add(part * t.energy(a, b, ij)); });
+            }
+        });
     }
     static std::uint64_t mix(std::uint64_t z) // splitmix64 (Steele, Lea & Flood 2014)
     {
@@ -835,6 +1009,13 @@ private:
         Mask m = 0;
         for (int t = 0; t < M::terms; ++t)
             if (((terms >> t) & 1) != 0) m |= M::planner.term[std::size_t(t)].adds;
+        return m;
+    }
+    static constexpr Mask written(Mask terms)
+    {
+        Mask m = 0;
+        for (int t = 0; t < M::terms; ++t)
+            if (((terms >> t) & 1) != 0) m |= M::planner.term[std::size_t(t)].writes;
         return m;
     }
     static constexpr Mask read_of_target(Mask terms, int s)
@@ -947,10 +1128,23 @@ private:
         (one(std::integral_constant<std::size_t, t>{}), ...);
     }
     /// Not inlined: compiled once, not for each component of each field.
-    template <std::size_t stride>
-    [[gnu::noinline]] static void pack_column(T const* from, T* to, std::size_t first, std::size_t last)
+    template <std::size_t stride, class F>
+    [[gnu::noinline]] static void pack_column(T const* from, PairT* to, std::size_t first, std::size_t last)
     {
-        for (std::size_t i = first; i < last; ++i) to[i * stride] = from[i];
+        for (std::size_t i = first; i < last; ++i) to[i * stride] = ParticlesOf<0>::template rounded<PairT, F>(from[i]);
+    }
+    /// Where positions are copied, so are their tails.
+    template <Mask copied>
+    static constexpr auto with_tail()
+    {
+        constexpr auto set = M::template fields<copied>();
+        if constexpr (decltype(set)::template contains<Position>) return in_pairs(set);
+        else return set;
+    }
+    /// Both components of a record of two: whole registers of them, interleaved.
+    [[gnu::noinline]] static void pack_two(T const* x, T const* y, T* to, std::size_t first, std::size_t last)
+    {
+        for (std::size_t i = first; i < last; ++i) to[2 * i] = x[i], to[2 * i + 1] = y[i];
     }
     /// Copies fields of a species into its records; then the sentinel and the images.
     template <int s, Mask copied>
@@ -963,16 +1157,24 @@ private:
         std::size_t records = n + 1 + images.of.size();
         if constexpr (!alone) parts_.finish(s), records += parts_.foreign(s).records();
         constexpr auto stride = std::size_t(L::stride);
-        if (x.packed.data.size() != records * stride) x.packed.data.assign(records * stride, T(1));
-        T* const data = x.packed.data.data();
+        constexpr bool one_vector =
+            std::same_as<decltype(M::template fields<copied>()), Fields<Position>> && dim == 2 && !mixed;
+        if (x.packed.data.size() != records * stride) x.packed.data.assign(records * stride, PairT(1));
+        PairT* const data = x.packed.data.data();
         stretches<s>([&](std::size_t first, std::size_t end) {
             constexpr std::size_t in_cache = 256; // records that stay in the first-level cache over all their fields
             for (std::size_t last; first < end; first = last) {
                 last = std::min(end, first + in_cache);
-                for_each(M::template fields<copied>(), [&]<class F>(F f) {
+                if constexpr (stride == 2 && one_vector) {
+                    auto const& column = x.particles.column(position);
+                    pack_two(column[0].data(), column[1].data(), data, first, last);
+                    continue;
+                }
+                for_each(Set<with_tail<copied>()>{}, [&]<class F>(F f) {
                     for (int c = 0; c < components<F, dim>; ++c) {
-                        T const* from = x.particles.column(f)[std::size_t(c)].data();
-                        pack_column<stride>(from, data + std::size_t(L::template offset<F> + c), first, last);
+                        T const* from = x.particles.source_of(f)[std::size_t(c)].data();
+                        using Kind = std::conditional_t<std::same_as<F, PositionTail>, F, Position>;
+                        pack_column<stride, Kind>(from, data + std::size_t(L::template offset<F> + c), first, last);
                     }
                 });
             }
@@ -985,12 +1187,26 @@ private:
         if (images.of.empty()) return;
         backend_.for_each((images.of.size() + task - 1) / task, [&](std::size_t k) {
             for (std::size_t g = k * task, end = std::min(images.of.size(), (k + 1) * task); g < end; ++g) {
-                T* const to = data + (n + 1 + g) * stride;
+                PairT* const to = data + (n + 1 + g) * stride;
                 std::copy_n(data + std::size_t(images.of[g]) * stride, stride, to);
                 const Vec<dim, double> shift = shift_of(images.code[g], grid_);
-                for (int c = 0; c < dim; ++c) to[at + std::size_t(c)] += T(shift[c]);
+                move_record<L>(to, shift);
             }
         });
+    }
+    /// A record of an image lies elsewhere.
+    template <class L>
+    static void move_record(PairT* record, Vec<dim, double> const& shift)
+    {
+        PairT* const at = record + L::template offset<Position>;
+        for (int c = 0; c < dim; ++c) {
+            if constexpr (mixed) {
+                PairT* const tail = record + L::template offset<PositionTail>;
+                const T moved = T(at[c]) + T(tail[c]) + T(shift[c]);
+                at[c] = PairT(moved), tail[c] = PairT(moved - T(PairT(moved)));
+            }
+            else at[c] += PairT(shift[c]);
+        }
     }
     /// Sends fields of those records that others wait for, and takes theirs as they come.
     template <int s, Mask copied>
@@ -998,33 +1214,33 @@ private:
     {
         using L = typename decltype(Species<s>::packed)::L;
         static constexpr auto offset = [] {
-            std::array<std::size_t, std::size_t(Layout<dim, Set<M::template fields<copied>()>>::count)> o{};
+            std::array<std::size_t, std::size_t(Layout<dim, Set<with_tail<copied>()>>::count)> o{};
             std::size_t k = 0;
-            for_each(M::template fields<copied>(), [&]<class F>(F) {
+            for_each(Set<with_tail<copied>()>{}, [&]<class F>(F) {
                 for (int c = 0; c < components<F, dim>; ++c) o[k++] = std::size_t(L::template offset<F> + c);
             });
             return o;
         }();
-        constexpr auto stride = std::size_t(L::stride), at = std::size_t(L::template offset<Position>);
-        T* const data = species<s>().packed.data.data();
+        constexpr auto stride = std::size_t(L::stride);
+        PairT* const data = species<s>().packed.data.data();
         auto const& foreign = parts_.foreign(s);
         parts_.send(
             s, offset.size(),
-            [&](std::int32_t i, T* to) {
-                T const* const from = data + std::size_t(i) * stride;
+            [&](std::int32_t i, PairT* to) {
+                PairT const* const from = data + std::size_t(i) * stride;
                 for (std::size_t k = 0; k < offset.size(); ++k) to[k] = from[offset[k]];
             },
-            [this, data, &foreign](std::int32_t i, T const* from) {
-                T* const to = data + (std::size_t(foreign.first) + std::size_t(i)) * stride;
+            [this, data, &foreign](std::int32_t i, PairT const* from) {
+                PairT* const to = data + (std::size_t(foreign.first) + std::size_t(i)) * stride;
                 for (std::size_t k = 0; k < offset.size(); ++k) to[offset[k]] = from[k];
                 auto const& images = foreign.bins->images();
                 if (images.of.empty()) return;
                 for (auto g = images.first[std::size_t(i)]; g < images.first[std::size_t(i) + 1]; ++g) {
-                    T* const image =
+                    PairT* const image =
                         data + (std::size_t(foreign.first) + foreign.places.size + std::size_t(g)) * stride;
                     std::copy_n(to, stride, image);
                     const Vec<dim, double> shift = shift_of(images.code[std::size_t(g)], grid_);
-                    for (int c = 0; c < dim; ++c) image[at + std::size_t(c)] += T(shift[c]);
+                    move_record<L>(image, shift);
                 }
             });
     }
@@ -1039,15 +1255,17 @@ private:
     template <int s, Mask terms, Mask allowed>
     void sweep()
     {
+        if constexpr (s == 0 && (allowed & ~Mask(3)) != 0) carry_at_walls(terms_, carry_.value_or(Carry{due_}));
         constexpr Mask from_0 = (allowed & 1) != 0 ? reading(terms, s, 0) : 0;
         constexpr Mask from_1 = species_count == 2 && (allowed & 2) != 0 ? reading(terms, s, 1) : 0;
         auto run_with = [&](auto const&... source) {
             auto& x = species<s>();
-            using Sums = decltype(M::template fields<added(terms)>());
-            using Target = decltype(M::template fields<read_of_target(terms, s)>());
+            using Sums = decltype(M::template fields<added(terms) | written(terms)>());
+            using Target = Set<in_pairs(M::template fields<read_of_target(terms, s)>())>;
             constexpr Mask itself = (allowed >> s) & 1 ? terms : Mask(0);
             auto one = [&](std::size_t cell) {
-                sweep_cell<V, itself, Sums, Target>(physics_.interaction, terms_, x.particles, x.bins, cell, source...);
+                sweep_cell<PairV, itself, Sums, Target>(physics_.interaction, terms_, x.particles, x.bins, cell,
+                                                        source...);
             };
             if constexpr (alone) backend_.for_each(x.bins.cells(), one);
             else parts_.run(s, x.bins.cells(), (from_0 != 0 ? 1u : 0u) | (from_1 != 0 ? 2u : 0u), one, backend_);
@@ -1057,6 +1275,7 @@ private:
         else if constexpr (from_1 != 0) run_with(source<s, 1, from_1>());
         else run_with();
     }
+public:
     /// What the terms of s <- q keep of a pair.
     template <int s, int q>
     static constexpr auto kept()
@@ -1073,6 +1292,8 @@ private:
     }
     template <int s, int q>
     static constexpr int kept_values = Layout<dim, Set<kept<s, q>()>>::count;
+
+private:
     /// f(s, q, memory set aside, memory by cell) for each pair of species of which something is kept.
     void each_memory(auto const& f)
     {
@@ -1091,8 +1312,8 @@ private:
     {
         auto const& x = species<q>();
         return typename Lists<dim>::template From<T>{
-            lists_[std::size_t(s * species_count + q)],        places<q>(), x.bins,
-            Layout<dim, Set<M::template record<q>()>>::stride, s == q,      foreign<q>()};
+            lists_[std::size_t(s * species_count + q)],         places<q>(), x.bins,
+            std::remove_cvref_t<decltype(x.packed)>::L::stride, s == q,      foreign<q>()};
     }
     /// Where particles of a species were when lists were built.
     template <int s>
@@ -1115,14 +1336,12 @@ private:
     template <int s, int q, Mask terms>
     auto source()
     {
+        static_assert(!mixed || kept_values<s, q> == 0,
+                      "spate: Mixed is for terms that keep nothing of a pair; take Double or Float");
         auto const& x = species<q>();
+        auto& memory = memory_[std::size_t(s * species_count + q)];
         return Source<terms, Set<kept<s, q>()>, ParticlesOf<q>, std::remove_cvref_t<decltype(x.packed)>>{
-            x.particles,
-            x.packed,
-            lists<s, q>(),
-            s == q,
-            &memory_[std::size_t(s * species_count + q)],
-            carry_.value_or(Carry{due_})};
+            x.particles, x.packed, lists<s, q>(), s == q, &memory, carry_.value_or(Carry{due_})};
     }
     /// The sets one after the other, a stretch of particles at a time: it is in the cache for the second set.
     template <bool from_start, class... Sets>
@@ -1179,7 +1398,7 @@ private:
         each_species([&](auto s) {
             auto build = [&](auto... sources) {
                 const std::array<typename Lists<dim>::template From<T>, sizeof...(sources)> from{sources...};
-                Lists<dim>::build(places<s()>(), species<s()>().bins, grid_, width<V>, neighbours_.window, range,
+                Lists<dim>::build(places<s()>(), species<s()>().bins, grid_, width<PairV>, neighbours_.window, range,
                                   skins_.of(s()), beyond, backend_, from);
             };
             constexpr bool meets_0 = M::planner.meet(s(), 0), meets_1 = species_count == 2 && M::planner.meet(s(), 1);
@@ -1189,7 +1408,7 @@ private:
         });
         each_memory([&](auto s, auto q, auto& aside, auto& memory) {
             aside.give(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
-                       species<q()>().particles, species<q()>().bins, width<V>, foreign<q()>());
+                       species<q()>().particles, species<q()>().bins, width<PairV>, backend_, foreign<q()>());
             aside.clear(); // it would be old news to lists to come
         });
         have_lists_ = true;
@@ -1435,14 +1654,29 @@ private:
     }
     void wrap(auto& particles)
     {
+        const double most = farthest();
         auto& x = particles.column(position);
         for (int c = 0; c < dim; ++c)
             if (grid_.periodic(c))
                 for (std::size_t i = 0; i < particles.size(); ++i) {
                     auto& value = x[std::size_t(c)][i];
+                    if (!(std::abs(double(value)) <= most)) stop_lost(particles, i, most);
                     value = T(grid_.wrapped(c, double(value)));
-                    if (!(double(value) < grid_.box().hi[c])) value = T(grid_.box().lo[c]); // rounded up in T
+                    const bool inside = double(value) >= grid_.box().lo[c] && double(value) < grid_.box().hi[c];
+                    if (!inside) value = T(grid_.box().lo[c]); // rounded out in T
                 }
+    }
+    [[noreturn, gnu::cold]] static void stop_lost(auto const& particles, std::size_t i, double most)
+    {
+        StopFacts f;
+        f.particle = particles.id()[i];
+        f.quantity = "the distance from the origin along an axis [m], to wrap,";
+        for (int c = 0; c < dim; ++c) {
+            f.position[c] = particles.at(position, i)[c];
+            if (!(std::abs(f.position[c]) <= most)) f.value = f.position[c];
+        }
+        f.limit = most;
+        throw IndexOverflow(f);
     }
     P physics_;
     B boundary_;
@@ -1469,6 +1703,7 @@ private:
     std::array<std::vector<Array<T>>, std::size_t(species_count* species_count)> memory_; ///< of pairs, by cell
     LocalSkins<dim, species_count> skins_;
     [[no_unique_address]] Parts parts_;
+    double wrap_after_ = std::numeric_limits<double>::infinity(); ///< way after which positions are wrapped anew [m]
     bool have_lists_ = false, sorted_markers_ = false, kick_rates_ = false, lost_ = false;
     std::optional<Carry> carry_; ///< of sweeps for rates; to others what is kept of pairs is only shown
     double due_ = 0, moved_ = 0; ///< time since what is kept of pairs was kept, since the step was saved [s]

@@ -18,8 +18,9 @@ struct Stiffness {
     double contact_frequency = 0; ///< of two touching grains [1/s]
 };
 
+/// \param grain_mass  of the lightest grain [kg]    \param grain_radius  of the smallest one [m]
 template <class P>
-Stiffness stiffness_of(P const& physics, double grain_mass)
+Stiffness stiffness_of(P const& physics, double grain_mass, [[maybe_unused]] double grain_radius = 0)
 {
     Stiffness s;
     s.length = physics.interaction.length();
@@ -28,6 +29,8 @@ Stiffness stiffness_of(P const& physics, double grain_mass)
         if constexpr (EquationOfState<std::remove_cvref_t<decltype(t)>>) s.sound_speed = t.c0, rho0 = t.rho0;
         if constexpr (requires { t.contact_frequency(1.0); })
             s.contact_frequency = std::max(s.contact_frequency, t.contact_frequency(grain_mass));
+        if constexpr (requires { t.contact_frequency(1.0, 1.0); })
+            s.contact_frequency = std::max(s.contact_frequency, t.contact_frequency(grain_mass, grain_radius));
     });
     detail::each_in(physics.terms, [&](auto const& t) {
         if constexpr (requires { t.kinematic_viscosity(1.0, 1.0, 1); })

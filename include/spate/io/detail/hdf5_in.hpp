@@ -44,9 +44,9 @@ private:
         H5G_info_t info{};
         check(H5Gget_info(group, &info));
         for (hsize_t k = 0; k < info.nlinks; ++k) {
-            std::string name(
-                std::size_t(check(H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, k, nullptr, 0, H5P_DEFAULT))),
-                '\0');
+            std::string name(std::size_t(check(H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, k, nullptr, 0,
+                                                                  H5P_DEFAULT))),
+                             '\0');
             check(H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, k, name.data(), name.size() + 1,
                                      H5P_DEFAULT));
             const Hdf5Object object(check(H5Oopen(group, name.c_str(), H5P_DEFAULT)));

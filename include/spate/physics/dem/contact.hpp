@@ -20,10 +20,6 @@ struct Contact {
     M mask;        ///< the lanes in contact; the view applies it, terms never see it
 };
 
-/// Moment of inertia over m R^2 [-]: of a disc about its axis, of a sphere.
-template <int Dim>
-inline constexpr double inertia = Dim < 3 ? 0.5 : 0.4;
-
 /// a b/(a + b): of two masses, or radii. A wall is a partner of 1e100.
 template <class V>
 [[gnu::always_inline]] inline V reduced(V const& a, V const& b)

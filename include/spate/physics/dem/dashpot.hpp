@@ -5,7 +5,7 @@
 
 #include "spate/core/errors.hpp"
 #include "spate/core/term.hpp"
-#include "spate/physics/dem/contact.hpp"
+#include "spate/physics/dem/dissipation.hpp"
 #include "spate/physics/dem/normal_law.hpp"
 #include "spate/physics/dem/restitution.hpp"
 
@@ -18,29 +18,32 @@ enum class Tail {
 };
 
 /// The dashpot of a given spring: m_i dv_i/dt = -c (v_ij . n) n, c = 2 zeta sqrt(k m_ij). Docs (9) to (11).
-template <class Spring>
+template <class Spring, bool Counted = false>
 struct DashpotOn {
-    static constexpr Fields reads = Fields{velocity, mass} | (reads_i<Spring>() | reads_j<Spring>());
-    static constexpr Fields adds{acceleration};
+    static constexpr auto reads = Fields{velocity, mass} | reads_i<Spring>() | reads_j<Spring>();
+    static constexpr auto adds = Fields{acceleration} | detail::counted<Counted>();
     static constexpr bool normal = true, dashpot = true;
     Spring spring;
     double zeta; ///< damping over the critical [-]
     Tail tail;
 
-    /// c [N s/m].
-    [[gnu::always_inline]] auto damping(auto const& i, auto const& j, auto const& ij) const
+    /// c [N s/m], for a stiffness [N/m]: of this spring, or of one beside it.
+    [[gnu::always_inline]] auto damping(auto const& i, auto const& j, auto const& stiffness) const
     {
-        return 2 * zeta * sqrt(spring.stiffness(i, j, ij) * reduced(i[mass], j[mass]));
+        return 2 * zeta * sqrt(stiffness * reduced(i[mass], j[mass]));
     }
     [[gnu::always_inline]] auto force(auto const& i, auto const& j, auto const& ij) const
     {
         using V = typename std::remove_cvref_t<decltype(ij)>::value;
-        const V f = V(0) - damping(i, j, ij) * parting(i, j, ij);
+        const V f = V(0) - damping(i, j, spring.stiffness(i, j, ij)) * parting(i, j, ij);
         return tail == Tail::pulls ? f : V(max(f, V(0) - spring.force(i, j, ij)));
     }
-    void operator()(auto& i, auto const& j, auto const& ij) const
+    [[gnu::always_inline]] void operator()(auto& i, auto const& j, auto const& ij) const
     {
-        i[acceleration] += (force(i, j, ij) / i[mass]) * ij.n;
+        const auto f = force(i, j, ij);
+        i[acceleration] += (f / i[mass]) * ij.n;
+        detail::lose<Counted>(
+            i, ij, [&]() __attribute__((always_inline)) { return (0 - f) * parting(i, j, ij); });
     }
 };
 
@@ -51,19 +54,20 @@ struct Dashpot {
     double e;                ///< coefficient of restitution [-]
     Tail tail = Tail::pulls; ///< e is met either way
 
-    auto with(auto const&... all) const
+    template <class... All>
+    auto with(All const&... all) const
     {
         check();
         auto const& spring = detail::spring_of(all...);
         using Spring = std::remove_cvref_t<decltype(spring)>;
-        return DashpotOn<Spring>{spring, tail == Tail::pulls ? spring.damping(e) : spring.damping_without_pull(e),
-                                 tail};
+        const double zeta = tail == Tail::pulls ? spring.damping(e) : spring.damping_without_pull(e);
+        return DashpotOn<Spring, counts_losses<All...>>{spring, zeta, tail};
     }
     [[gnu::cold]] void check() const
     {
         require(e >= 0 && e <= 1, "Dashpot.e", e, "0 to 1 [-]");
         require(e > 0 || tail == Tail::pulls, "Dashpot.e", e,
-                "above 0 where the tail is cut [-]: it always leaves a rebound");
+                "above 0 where the tail is cut [-]: there is always a rebound");
     }
 };
 

@@ -5,8 +5,9 @@
 
 #include "spate/core/errors.hpp"
 #include "spate/core/term.hpp"
-#include "spate/physics/dem/contact.hpp"
+#include "spate/physics/dem/dissipation.hpp"
 #include "spate/physics/dem/normal_law.hpp"
+#include "spate/physics/dem/sliding.hpp"
 
 namespace spate {
 
@@ -15,46 +16,53 @@ inline constexpr struct TangentialSpring : AxialField {
     static constexpr std::string_view name = "tangential_spring", unit = "m";
 } tangential_spring{};
 
-/// Friction on given normal forces: xi grows by the slip; G = k_t xi + c_t dxi/dt, at most mu F_n; force n x G, torque a_i G.
+/// Friction on given normal forces: dxi/dt = the slip; G = k_t xi + c_t dxi/dt, at most mu F_n; force n x G, torque a_i G.
 /// Docs (12) to (17).
-template <class Law>
+template <class Law, bool Counted = false>
 struct FrictionOn {
-    static constexpr Fields reads = Fields{velocity, angular_velocity, radius, mass} | Law::reads;
-    static constexpr Fields adds{acceleration, angular_acceleration};
+    static constexpr auto reads = Fields{velocity, angular_velocity, radius, mass} | Law::reads;
+    static constexpr auto adds = Fields{acceleration, angular_acceleration} | detail::counted<Counted>();
     static constexpr Fields keeps{tangential_spring};
+    static constexpr bool stores_energy = true;
     Law law;
-    double mu;        ///< coefficient of friction [-]
-    double stiffness; ///< k_t over k_n [-]
-    double damping;   ///< c_t over c_n [-]
+    double mu;    ///< coefficient of friction [-]
+    double share; ///< k_t over k_n [-]
+    double loss;  ///< c_t over c_n [-]
 
-    void operator()(auto& i, auto const& j, auto const& ij) const
+    [[gnu::always_inline]] void operator()(auto& i, auto const& j, auto const& ij) const
     {
-        using V = typename std::remove_cvref_t<decltype(ij)>::value;
+        const auto k_n = law.spring().stiffness(i, j, ij), k = share * k_n;
         const auto u = slip(i, j, ij);
-        const V k = stiffness * law.spring().stiffness(i, j, ij);
         const auto xi = turned(ij.n, value(i[tangential_spring])) + i[elapsed] * u;
-        const V limit = max(mu * law.force(i, j, ij), V(0));
-        auto trial = k * xi, viscous = V(0) * xi;
-        if constexpr (Law::damped) viscous = (damping * law.damping(i, j, ij)) * u, trial += viscous;
-        const V g2 = trial.squaredNorm();
-        const auto slides = g2 > limit * limit;
-        const auto g = where(slides, limit / sqrt(g2), V(1)) * trial;
-        i[tangential_spring] = where(slides, (1 / k) * (g - viscous), xi);
-        push_across(i, ij, g);
+        const auto s = Sliding(
+            mu * law.force(i, j, ij), k * xi, u, [&]() __attribute__((always_inline)) {
+                if constexpr (Law::damped) return loss * law.damping(i, j, k_n);
+                else return NoDamping{};
+            });
+        i[tangential_spring] = s.yields * xi;
+        push_across(i, ij, s.g);
+        detail::lose<Counted>(
+            i, ij, [&]() __attribute__((always_inline)) { return s.losses(k, xi, u, i[elapsed]); });
+    }
+    /// Elastic energy of the tangential spring [J].
+    [[nodiscard]] double energy(auto const& i, auto const& j, auto const& ij) const
+    {
+        return 0.5 * share * law.spring().stiffness(i, j, ij) * value(i[tangential_spring]).squaredNorm();
     }
 };
 
-/// Cundall & Strack (1979); on the normal forces of the model.
+/// Cundall & Strack (1979), on the normal forces of the model.
 struct Friction {
     double mu;                  ///< coefficient of friction [-]
     double stiffness = 2.0 / 7; ///< of the tangential spring over that of the normal one [-]; 2/7: equal periods
     double damping = 0.5;       ///< of the tangential dashpot over that of the normal one [-]
 
-    auto with(auto const&... all) const
+    template <class... All>
+    auto with(All const&... all) const
     {
         check();
         const auto law = detail::normal_law(all...);
-        return FrictionOn<std::remove_cvref_t<decltype(law)>>{law, mu, stiffness, damping};
+        return FrictionOn<std::remove_cv_t<decltype(law)>, counts_losses<All...>>{law, mu, stiffness, damping};
     }
     [[gnu::cold]] void check() const
     {

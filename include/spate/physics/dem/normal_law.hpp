@@ -5,34 +5,56 @@
 #pragma once
 
 #include "spate/core/term.hpp"
+#include "spate/physics/dem/contact.hpp"
 
 #include <tuple>
 
 namespace spate {
 
-/// A term with force(i, j, ij) [N] along n; a spring also has stiffness(i, j, ij) [N/m], a dashpot damping(i, j, ij) [N s/m].
+/// A term with force(i, j, ij) [N] along n. A spring has stiffness(i, j, ij) [N/m] and stores energy; a dashpot has
+/// damping(i, j, stiffness) [N s/m].
 template <class T>
 inline constexpr bool is_normal = requires
 {
     requires T::normal;
 };
+template <class T>
+inline constexpr bool is_spring = is_normal<T>&& requires
+{
+    requires T::stores_energy;
+};
 
+template <class T>
+inline constexpr bool is_dashpot = requires
+{
+    requires T::dashpot;
+};
+
+/// A spring, then the other normal terms.
 template <class... T>
 struct NormalLaw {
     static constexpr auto reads = (Fields<>{} | ... | (reads_i<T>() | reads_j<T>()));
+    static constexpr bool damped = (false || ... || is_dashpot<T>);
     std::tuple<T...> terms;
 
+    auto const& spring() const { return std::get<0>(terms); }
     [[gnu::always_inline]] auto force(auto const& i, auto const& j, auto const& ij) const
     {
-        return std::apply(
-            [&](auto const&... t) __attribute__((always_inline)) { return (t.force(i, j, ij) + ...); }, terms);
+        return [&]<std::size_t... t>(std::index_sequence<t...>) __attribute__((always_inline))
+        {
+            return (std::get<t>(terms).force(i, j, ij) + ...);
+        }
+        (std::make_index_sequence<sizeof...(T)>{});
     }
-    auto const& spring() const { return std::get<0>(terms); }
-    static constexpr bool damped = (requires { T::dashpot; } || ...);
-    /// Of the dashpot [N s/m].
-    [[gnu::always_inline]] auto damping(auto const& i, auto const& j, auto const& ij) const requires(damped)
+    /// Of the dashpot, for a spring of the given stiffness beside its own [N s/m].
+    [[gnu::always_inline]] auto damping(auto const& i, auto const& j, auto const& stiffness) const requires(damped)
     {
-        return std::get<1>(terms).damping(i, j, ij);
+        constexpr std::size_t at = [] {
+            std::size_t k = 0, found = 0;
+            ((found = is_dashpot<T> ? k : found, ++k), ...);
+            return found;
+        }();
+        return std::get<at>(terms).damping(i, j, stiffness);
     }
 };
 
@@ -45,30 +67,36 @@ auto completed(T const& t, All const&... all)
     else return t;
 }
 /// The spring of a model.
-template <class... All>
-constexpr int springs = (0 + ... + int(is_normal<All> && requires { All::stores_energy; }));
 template <class First, class... Rest>
-auto const& spring_of(First const& first, Rest const&... rest)
+auto const& first_spring(First const& first, Rest const&... rest)
 {
-    if constexpr (is_normal<First> && requires { First::stores_energy; }) return first;
-    else return spring_of(rest...);
+    if constexpr (is_spring<First>) return first;
+    else return first_spring(rest...);
+}
+template <class... All>
+auto const& spring_of(All const&... all)
+{
+    static_assert((0 + ... + int(is_spring<All>)) == 1,
+                  "spate: a dashpot and friction take their stiffness from the spring of the model; name one, "
+                  "LinearSpring or Hertz, in dem(...)");
+    return first_spring(all...);
 }
 template <class T, class... All>
 auto other_normal(T const& t, All const&... all)
 {
-    if constexpr (is_normal<T> && !requires { T::stores_energy; }) return std::tuple{completed(t, all...)};
+    if constexpr (is_normal<T> && !is_spring<T>) return std::tuple{completed(t, all...)};
     else return std::tuple<>{};
 }
-/// Spring, dashpot and whatever else is normal, completed.
+template <class... T>
+auto law_of(std::tuple<T...> terms)
+{
+    return NormalLaw<T...>{terms};
+}
+/// The normal terms of a model, completed.
 template <class... All>
 auto normal_law(All const&... all)
 {
-    static_assert(springs<All...> == 1,
-                  "spate: a dashpot and friction take their stiffness from the spring of the model; "
-                  "name one, LinearSpring or Hertz, in dem(...)");
-    return [&]<class... T>(std::tuple<T...> terms) {
-        return NormalLaw<T...>{terms};
-    }(std::tuple_cat(std::tuple{spring_of(all...)}, other_normal(all, all...)...));
+    return law_of(std::tuple_cat(std::tuple{spring_of(all...)}, other_normal(all, all...)...));
 }
 } // namespace detail
 
