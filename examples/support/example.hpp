@@ -35,12 +35,9 @@ public:
 
     int main(int argc, char** argv, std::function<void()> const& scene)
     {
-        if constexpr (!many) return Frame::main(argc, argv, scene);
-        else {
-            wait_passively(argv); // it may start the program again: before MPI
-            speaks_ = scene::Backend{}.ranks().rank() == 0;
-            return Frame::main(argc, argv, scene);
-        }
+        if (many) wait_passively(argv); // it may start the program again: before MPI
+        speaks_ = spate::ranks_of(scene::Backend{}).rank() == 0;
+        return Frame::main(argc, argv, scene);
     }
     /// Runs a scene to its end with history (its columns the given measures), snapshots, pictures and summary.
     template <class Scene, class... Measure>
@@ -102,7 +99,7 @@ public:
     }
 
 private:
-    static constexpr bool many = requires(scene::Backend b) { b.ranks(); };
+    static constexpr bool many = !decltype(spate::ranks_of(scene::Backend{}))::alone;
 
     template <class Scene>
     [[gnu::cold]] static void about_species(Scene const& scene, Summary& s)

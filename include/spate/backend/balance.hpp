@@ -12,6 +12,7 @@ namespace spate {
 struct Balance {
     int every = 4;           ///< rebuilds of lists between two looks; 0: off
     double tolerated = 1.05; ///< largest cost of a rank over the mean [-]
+    bool by_pairs = false;   ///< a cell costs as many units as it has pairs, not the time that it took
     int forced = 0;          ///< tests: cuts wander at every so many steps, whatever it costs; 0: off
 
     void check() const

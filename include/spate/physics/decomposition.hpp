@@ -170,6 +170,15 @@ public:
                 if ((sources >> q & 1) != 0 && air_[std::size_t(q)].flying) return true;
             return false;
         };
+        auto is_missing = [&] {
+            for (int q = 0; q < Species; ++q) {
+                auto const& air = air_[std::size_t(q)];
+                if ((sources >> q & 1) != 0 && air.flying &&
+                    std::find(air.missing.begin(), air.missing.end(), 1) != air.missing.end())
+                    return true;
+            }
+            return false;
+        };
         auto look = [&](bool patient) { // at what has come
             bool any = true;
             while (any) {
@@ -190,12 +199,12 @@ public:
             const bool waiting = in_the_air();
             if (waiting) look(ready.empty() && done == inner.size());
             if (!ready.empty()) {
-                compute(s, ready, task, backend, in_the_air());
+                compute(s, ready, task, backend, is_missing());
                 ready.clear();
             }
             else if (done < inner.size()) {
                 const std::size_t end = waiting ? std::min(inner.size(), done + some) : inner.size();
-                compute(s, std::span(inner).subspan(done, end - done), task, backend, waiting);
+                compute(s, std::span(inner).subspan(done, end - done), task, backend, is_missing());
                 done = end;
             }
             else if (!waiting) break;

@@ -1560,6 +1560,15 @@ private:
         for (auto const& [key, n] : in_cell) cost.push_back({key, n});
         parts_.use(Shares<dim>::of_like_cost(std::move(cost), ranks()));
     }
+    template <int s>
+    [[nodiscard]] std::int64_t pairs_of_cell(std::size_t k) const
+    {
+        std::int64_t n = 0;
+        each_species([&](auto q) {
+            if constexpr (M::planner.meet(s, q())) n += this->template lists<s, q()>().of_cell(k).pairs;
+        });
+        return n;
+    }
     /// Like shares of what cells have cost since lists were built, if that pays.
     void cut_by_cost()
     {
@@ -1567,7 +1576,8 @@ private:
         each_species([&](auto s) {
             auto const& bins = species<s()>().bins;
             for (std::size_t k = 0; k < bins.cells(); ++k)
-                cost.push_back({along_curve<dim>(bins.cell(k)), parts_.cost(s())[k]});
+                cost.push_back({along_curve<dim>(bins.cell(k)),
+                                backend_.balance.by_pairs ? pairs_of_cell<s()>(k) : parts_.cost(s())[k]});
         });
         parts_.cut_by_cost(std::move(cost), backend_.balance.tolerated);
     }
