@@ -739,7 +739,7 @@ private:
         const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, u, rj, u);
         if constexpr (requires { ij.mask; })
             if (!ij.mask) return;
-        using Seen = detail::Kept<dim, double, Set<kept<0, 0>()>>::Seen;
+        using Seen = typename detail::Kept<dim, double, Set<kept<0, 0>()>>::Seen;
         Seen seen;
         seen.elapsed = due_;
         remembered<Set<kept<0, 0>()>>(seen, memory_[0], cell, row, lane);
