@@ -7,11 +7,13 @@ names=()
 for file in bench/*.cpp; do
     [[ ! -f $file ]] || names+=("$(basename "$file" .cpp)")
 done
-names+=(compile_time)
+names+=(compile_time work_precision advise)
 usage()
 {
     cat <<END
 usage: bash bench/run.sh NAME [options of Google Benchmark]
+       bash bench/run.sh work_precision [--set paper] [--figures W1,...]
+       bash bench/run.sh advise --case taylor_green --error 0.01 | --budget 10s
 
 NAME is one of: ${names[*]}
 Writes build/bench/NAME.json, and its plot beside it where there is one. What each measures: bench/README.md.
@@ -30,21 +32,44 @@ shift
 }
 
 bash tools/setup.sh --with bench
+of_ladders=no
+tool=bench/work_precision/$name.py
+if [[ $name == work_precision || $name == advise ]]; then
+    of_ladders=yes
+    [[ $name == advise ]] || tool=bench/work_precision/run.py
+    case " $* " in # nothing to build for
+        *" --help "* | *" -h "* | *" --page-only "* | *" --dry "*) exec /usr/bin/python3 -B "$tool" "$@" ;;
+    esac
+fi
 if [[ $name == compile_time ]]; then
     bash tools/setup.sh --with examples --with clang
     exec bash bench/compile_time.sh "$@"
 fi
-cmake --preset bench > /dev/null
-cmake --build --preset bench --target "bench_$name"
+target=bench_$name
+[[ $of_ladders == no ]] || target=bench_work_precision
+if [[ $of_ladders == no ]]; then
+    cmake --preset bench > /dev/null
+    cmake --build --preset bench --target "$target"
+else # not part of what they print
+    mkdir -p build/bench
+    { cmake --preset bench && cmake --build --preset bench -j 2 --target "$target"; } > build/bench/build.log 2>&1 || {
+        tail -n 30 build/bench/build.log >&2
+        exit 1
+    }
+fi
 export OMP_WAIT_POLICY=${OMP_WAIT_POLICY-passive} # libgomp's spinning barriers cost milliseconds on a busy core
 json=build/bench/$name.json
-executable=$(find build/bench -name "bench_$name" -type f -perm -u+x | head -n 1)
+executable=$(find build/bench -name "$target" -type f -perm -u+x | head -n 1)
 
 # What a figure is worth without: the machine, the compiler, the commit.
 cpu=$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo 2> /dev/null | head -n 1 | tr ',=' '  ') || cpu=
 compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' build/bench/CMakeCache.txt | head -n 1)
 compiler="$(basename "$compiler") $("$compiler" -dumpfullversion 2> /dev/null || "$compiler" -dumpversion)"
 commit=$(git describe --always --dirty=+ 2> /dev/null) || commit=unknown
+if [[ $of_ladders == yes ]]; then
+    exec /usr/bin/python3 -B "$tool" --executable "$executable" \
+        --context "{\"cpu\": \"${cpu:-unknown} ($(nproc) cores)\", \"compiler\": \"$compiler\", \"commit\": \"$commit\"}" "$@"
+fi
 log=build/bench/$name.log
 echo "run.sh: running $executable, log in $log" >&2
 "$executable" --benchmark_context="cpu=${cpu:-unknown},compiler=$compiler,commit=$commit" \

@@ -37,6 +37,7 @@ void dam_break_big(benchmark::State& state)
 }
 BENCHMARK(dam_break_big<Double>)->ArgName("threads")->Arg(1)->Arg(2)->Iterations(2)->Unit(benchmark::kSecond);
 BENCHMARK(dam_break_big<Float>)->ArgName("threads")->Arg(1)->Iterations(2)->Unit(benchmark::kSecond);
+BENCHMARK(dam_break_big<Mixed>)->ArgName("threads")->Arg(1)->Iterations(2)->Unit(benchmark::kSecond);
 
 /// The seed's run of 139,332 markers, of which the seed's own code takes 1.2 s a step: the first 200 steps.
 void dam_break_seed(benchmark::State& state)
@@ -82,22 +83,24 @@ void walls(benchmark::State& state)
 }
 BENCHMARK(walls)->Iterations(2)->Unit(benchmark::kSecond);
 
-/// Sweeps of the developed flow in double and in float, turn by turn with the same terms on packs and records from L1.
+/// Sweeps of the developed flow in double, in float and mixed, turn by turn with the same terms on packs and records from L1.
 void sweep(benchmark::State& state)
 {
     auto one = developed_dam<Double>(1);
     auto other = developed_dam<Float>(1);
-    one.step(like_dam_break), other.step(like_dam_break);
+    auto third = developed_dam<Mixed>(1);
+    one.step(like_dam_break), other.step(like_dam_break), third.step(like_dam_break);
     auto& s = one.system();
     SweepsOf in_double(s);
     SweepsOf in_float(other.system());
+    SweepsOf in_mixed(third.system());
     using P = std::remove_cvref_t<decltype(one.physics())>;
     using B = std::remove_cvref_t<decltype(s.boundary())>;
     const double m = one.particles().value(mass);
     FromL1<P, B, Double, 0, 0> fluid_fluid(one.physics(), s.boundary(), m);
     FromL1<P, B, Double, 0, 1> fluid_wall(one.physics(), s.boundary(), m);
     FromL1<P, B, Double, 1, 0> wall_fluid(one.physics(), s.boundary(), m);
-    Least d, f, rates, rebuild, packs[3], records[3];
+    Least d, f, x, rates, rebuild, packs[3], records[3];
     auto turn = [&](int k, auto& l1) {
         packs[k].of([&] {
             for (int n = 0; n < 20; ++n) l1.on_packs();
@@ -109,6 +112,7 @@ void sweep(benchmark::State& state)
     for (auto _ : state) {
         d.of([&] { in_double.run(); });
         f.of([&] { in_float.run(); });
+        x.of([&] { in_mixed.run(); });
         rates.of([&] { s.rates(s.all); });
         rebuild.of([&] { s.rebuild(); });
         s.rates(s.all); // the records in the order of the new lists
@@ -126,6 +130,8 @@ void sweep(benchmark::State& state)
     c["double_ns_pair"] = d.ns(pairs);
     c["float_ns_pair"] = f.ns(double(other.system().pairs()));
     c["float_over_double"] = c["float_ns_pair"] / c["double_ns_pair"];
+    c["mixed_ns_pair"] = x.ns(double(third.system().pairs()));
+    c["mixed_over_double"] = c["mixed_ns_pair"] / c["double_ns_pair"];
     c["packs_ns_pair"] = on_packs;
     c["records_ns_pair"] = on_records;
     c["over_packs"] = d.ns(pairs) / on_packs;

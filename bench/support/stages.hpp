@@ -49,7 +49,7 @@ public:
 
 private:
     using M = typename System::M;
-    using V = typename System::V;
+    using V = typename System::PairV;
     static constexpr auto plan = M::template rates_plan<std::remove_cvref_t<decltype(System::all)>>();
 
     template <Stage st>
@@ -71,14 +71,14 @@ private:
         auto const& x = s_.template species<q>();
         using P = std::remove_cvref_t<decltype(x.particles)>;
         using R = std::remove_cvref_t<decltype(x.packed)>;
-        return Source<terms, Fields<>, P, R>{x.particles, x.packed, s_.template lists<s, q>(), s == q, nullptr};
+        return Source<terms, Fields<>, P, R>{x.particles, x.packed, s_.template lists<s, q>(), s == q, nullptr, {}};
     }
     template <int s, Mask terms>
     void cells(auto const&... source)
     {
         auto& x = s_.template species<s>();
         using Sums = decltype(M::template fields<Sweeps<M>::added(terms)>());
-        using Target = decltype(M::template fields<Sweeps<M>::read_of_target(terms, s)>());
+        using Target = Set<System::in_pairs(M::template fields<Sweeps<M>::read_of_target(terms, s)>())>;
         for (std::size_t cell = 0; cell < x.bins.cells(); ++cell)
             sweep_cell<V, terms, Sums, Target>(s_.physics().interaction, s_.terms(), x.particles, x.bins, cell,
                                                source...);
@@ -97,7 +97,7 @@ void build_lists(System const& s, Lists<System::dim>& lists)
     constexpr int record = std::remove_cvref_t<decltype(x.packed)>::L::stride;
     const auto places = Places<System::dim, T>::of(x.particles);
     const std::array from{typename Of::template From<T>{lists, places, x.bins, record, true}};
-    Of::build(places, x.bins, s.grid(), width<typename System::V>, s.neighbours().window,
+    Of::build(places, x.bins, s.grid(), width<typename System::PairV>, s.neighbours().window,
               s.physics().interaction.range(), s.template skins<0>(), 0, s.backend(), from);
 }
 

@@ -25,20 +25,23 @@ public:
     Options const& options() const { return options_; }
     CommandLine& command_line() { return line_; }
 
-    /// 0 ok, 2 bad input, 3 a typed stop, 4 an output could not be written, 128 + signal.
+    /// 0 ok, 2 bad input, 3 a typed stop, 4 an output could not be written, 128 + signal: 130 SIGINT, 138 SIGUSR1,
+    /// 143 SIGTERM, each with a checkpoint.
     int main(int argc, char** argv, std::function<void()> const& scene);
 
 protected:
     /// Before step 0 a directory that cannot be written in is bad input; later it is an OutputError.
     static void require_writable(std::filesystem::path const& directory);
-    void interrupted(Summary& s, std::int64_t step, double time);
+    void interrupted(Summary& s, std::int64_t step, double time, std::filesystem::path const& checkpoint);
     /// What is printed on standard output.
     struct Talk {
         bool quiet;
+        bool speaks = true;   ///< one rank does
         std::size_t told = 0; ///< warnings
 
         void opening(Summary const& s) const;
         void begin(auto const& scene) { warn(scene.report().warnings); }
+        void going_on(std::filesystem::path const& checkpoint, std::int64_t step, double time) const;
         void step(auto const& scene)
         {
             if (scene.report().steps == 1) {
@@ -66,6 +69,7 @@ protected:
     CommandLine line_;
     Summary summary_;
     int code_ = 0;
+    bool speaks_ = true; ///< for all ranks
 };
 
 } // namespace example

@@ -19,6 +19,7 @@ void catch_interrupts()
 {
     std::signal(SIGINT, keep);
     std::signal(SIGTERM, keep);
+    std::signal(SIGUSR1, keep);
 }
 int interrupt() { return signal_that_came; }
 

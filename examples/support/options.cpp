@@ -27,11 +27,12 @@ CommandLine::CommandLine(std::string const& name, std::string const& about, Opti
     app.description(about);
     app.set_help_flag("--help,-h", "print this and end");
     with_unit(app.add_option("--until", o.until, "end time"), "[s]");
-    app.add_option("--steps", o.steps, "at most so many steps")->type_name("N");
+    app.add_option("--steps", o.steps, "end after so many steps, those before a restart too")->type_name("N");
     with_unit(app.add_option("--spacing", o.spacing, "of the particles; 0: the scene's"), "[m]");
     with_unit(app.add_option("--cfl", o.cfl, "factor of the time-step criteria"), "[-]");
     with_unit(app.add_option("--dt", o.dt, "fixed time step; 0: by the criteria"), "[s]");
     with_unit(app.add_option("--threads", o.threads, "threads; 0: as many as there are"), "N");
+    with_unit(app.add_option("--ranks", o.ranks, "processes, with --backend mpi; 0: as many as there are"), "N");
     with_unit(app.add_option("--cell", o.cell, "ranges along the edge of a cell, 1 to 32; 0: by dimension"), "M");
     app.add_option("--output", o.output, "directory of the results")->type_name("DIR")->default_str(o.output);
     with_unit(app.add_option("--every", o.every, "between two snapshots; 0: the last state only"), "[s]");
@@ -39,6 +40,14 @@ CommandLine::CommandLine(std::string const& name, std::string const& about, Opti
               "[s]");
     with_unit(app.add_option("--picture-every", o.picture_every, "between two pictures; 0: the last state only"),
               "[s]");
+    app.add_option(
+           "--checkpoint-every", o.checkpoint_every,
+           "between two checkpoints: steps, or a time by the clock with s, min or h, such as 600s; 0: only when "
+           "the run is interrupted or stopped")
+        ->type_name("N|T")
+        ->capture_default_str();
+    app.add_option("--restart", o.restart, "go on from this checkpoint of the same scene")->type_name("FILE");
+    choice("--colour", o.colour, {"speed", "pressure"}, "of the particles in pictures");
     app.add_flag("--quiet", o.quiet, "print nothing but errors");
 }
 CommandLine::~CommandLine() = default;

@@ -13,5 +13,6 @@ Series::~Series() = default;
 
 std::filesystem::path Series::write(spate::io::Cloud const& cloud) { return series_->write(cloud); }
 std::vector<double> const& Series::times() const { return series_->times(); }
+void Series::go_on_from(std::vector<double> const& times) { series_->go_on_from(times); }
 
 } // namespace example

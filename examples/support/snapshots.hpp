@@ -25,6 +25,7 @@ public:
 
     std::filesystem::path write(spate::io::Cloud const& cloud);
     std::vector<double> const& times() const;
+    void go_on_from(std::vector<double> const& times);
 
 private:
     std::unique_ptr<spate::io::SnapshotSeries> series_;

@@ -47,6 +47,8 @@ struct Summary {
     void add_species(std::string const& species, std::size_t count, Words const& its_fields);
     void add_choice(std::string const& role, std::string const& choice);
 
+    /// What a restart needs: f(name, number).
+    void notes(auto const& f) { f("energy_start", energy_start); }
     /// Throws OutputError.
     void write(std::filesystem::path const& file) const;
 };

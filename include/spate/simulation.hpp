@@ -21,6 +21,7 @@
 #include <chrono>
 #include <functional>
 #include <numbers>
+#include <set>
 
 namespace spate {
 
@@ -75,8 +76,8 @@ public:
 
     [[gnu::cold]] Simulation(P physics, I integrator, B boundary, Workers backend = {}, Precision = {}, W watch = {},
                              Neighbours neighbours = neighbours_for<typename Engine::M::Interaction>())
-        : integrator_(integrator), watch_(watch),
-          system_(checked(physics, boundary, backend, neighbours, watch), boundary, backend, neighbours, I::saves),
+        : integrator_(integrator), watch_(watch), system_(checked(physics, boundary, backend, neighbours, watch),
+                                                          boundary, backend, neighbours, I::saves || W::on),
           g_(gravity_of(physics))
     {
         place_markers();
@@ -115,6 +116,12 @@ public:
         std::size_t count = 1;
         for (auto k : n) count *= std::size_t(k);
         std::vector<Point> at;
+        // Each rank begins a part, unless the user's own start may count on all of them.
+        bool a_part = false;
+        if constexpr (!Engine::alone && (at_rest<Start> || std::same_as<Start, std::nullptr_t>))
+            a_part = system_.template owns_all<0>();
+        std::vector<std::uint32_t> numbers;
+        std::size_t placed = 0;
         for (std::size_t k = 0; k < count; ++k) {
             Point x;
             std::size_t rest = k;
@@ -125,16 +132,23 @@ public:
             }
             if constexpr (requires { system_.boundary().covers(x); })
                 if (system_.boundary().covers(x)) continue;
+            const std::size_t number = placed++;
+            if (a_part) {
+                if (!system_.starts_here(number)) continue;
+                numbers.push_back(std::uint32_t(number));
+            }
             at.push_back(x);
         }
-        p.resize(first + at.size());
+        if constexpr (Engine::alone) p.resize(first + at.size());
+        else if (a_part) system_.template adopt<0>(std::move(numbers), placed);
+        else p.resize(first + at.size());
         for (std::size_t k = 0; k < at.size(); ++k) {
             p.put(position, first + k, at[k]);
             begin(p, first + k, box, start);
         }
         if constexpr (Engine::species_count == 2) wet_markers(box, start);
         prepare();
-        return at.size();
+        return placed;
     }
     template <int Other, class... Start>
     std::size_t fill(Box<Other> const&, double, Start...)
@@ -169,6 +183,7 @@ public:
     /// Between two steps newcomers enter, in their order and with ids that nobody had before; nobody touches them yet.
     [[gnu::cold]] Amount<dim> enter(Mobile const& more)
     {
+        static_assert(Engine::alone, "spate: particles enter and leave on one rank only");
         if (!prepared_) prepare();
         if (more.empty()) return {};
         auto& p = system_.mobile();
@@ -191,6 +206,7 @@ public:
     /// Between two steps the particles leave for which leaves(particles, i) holds: theirs is what is returned.
     Amount<dim> remove(auto const& leaves)
     {
+        static_assert(Engine::alone, "spate: particles enter and leave on one rank only");
         if (!prepared_) prepare();
         std::vector<char> is;
         if (!find(leaves, is)) return {};
@@ -212,10 +228,13 @@ public:
         if (physics().open())
             throw BadInput("spacing", "not known",
                            "given by a fill, or kernel.h and what terms want of it by hand [m]");
-        check_particles();
-        if (step_ == 0) check_places();
+        together(system_.ranks(), [&] {
+            check_particles();
+            if (step_ == 0) check_places();
+        });
         system_.use(make_grid());
         system_.resized();
+        system_.distribute(step_ == 0);
         prepared_ = true;
     }
 
@@ -236,22 +255,24 @@ public:
     RunReport const& run(RunOptions const& o, Output&&... output)
     {
         check(o);
+        if constexpr (!Engine::alone) agree_on(o);
         if (!prepared_) prepare();
         begin_run(o);
         (output.begin(*this), ...);
         const std::int64_t last =
             o.steps > std::numeric_limits<std::int64_t>::max() - step_ ? o.steps : step_ + o.steps;
         try {
-            while (time_ < o.until && step_ < last && !interrupted_()) {
+            while (time_ < o.until && step_ < last && !interrupted()) {
                 (before_step(output), ...);
                 step(o);
                 (output.step(*this), ...);
             }
             if constexpr (W::on) final_look();
         }
-        catch (Stop const&) {
+        catch (Stop& stop) {
             stopped_ = true;
             (output.end(*this), ...);
+            (tell(stop, output), ...);
             throw;
         }
         (output.end(*this), ...);
@@ -263,32 +284,44 @@ public:
         if (!prepared_) prepare();
         const auto wall = std::chrono::steady_clock::now();
         const std::clock_t cpu = std::clock();
+        if constexpr (!Engine::alone) system_.wander(step_);
         Extremes e = system_.template extremes<needs_acceleration>();
         look(e);
         choose_dt(o, e);
         if constexpr (Engine::M::moves) e |= move_markers(dt_);
         if (stale(e)) {
-            if constexpr (W::on)
-                stop_if_outside(system_.mobile(), system_.boundary(), physics().interaction.range(), step_, time_);
+            if constexpr (W::on) look_outside();
             rebuild();
             if (stale(e.unmoved())) rebuild(true);
+            if (stale(e.unmoved()) && o.dt <= 0) shorten(e.unmoved());
             if (stale(e.unmoved())) stop_outrun(e.unmoved());
         }
-        if constexpr (W::on)
+        if constexpr (W::on) {
+            if (step_ == 0) look_at_start();
+            look_at_way(e);
             if (step_ % watch_.energy_every == 0) look_at_energy();
+            keep_step();
+        }
         system_.template phase<When::before_step>(step_, [] {}); // the lists are those of this step
         move_contacts();
         integrator_.step(system_, dt_);
         if constexpr (Engine::reflects) reflect();
-        system_.template phase<When::after_step>(step_, [&] { make_lists_current(); });
+        after_step();
         time_ += dt_;
         ++step_;
         ++report_.steps;
         report_.cpu += double(std::clock() - cpu) / CLOCKS_PER_SEC;
         report_.wall += std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
     }
+    /// Whether a term sets densities, and with them energy that no force gives: re-initialisation.
+    static constexpr bool writes_energy = []<class... T>(std::tuple<T...> const*) {
+        return (false || ... || requires { T::writes_energy; });
+    }(static_cast<typename Engine::M::Terms const*>(nullptr));
+    /// The compressive energy that such terms have given to the fluid since the start [J].
+    [[nodiscard]] double written_energy() const { return written_energy_; }
     /// Asked before each step: true ends the run after the step in hand.
     void interrupt_when(std::function<bool()> f) { interrupted_ = std::move(f); }
+    [[nodiscard]] bool interrupted() const { return system_.ranks().all(interrupted_(), agree::Or{}); }
 
     // ---- what is known
     [[nodiscard]] double time() const { return time_; }
@@ -364,7 +397,97 @@ public:
     }
     [[nodiscard]] std::uint64_t state_hash() const { return system_.state_hash(); }
 
+    // ---- going on from a checkpoint: see io/resume.hpp
+    /// f(name, number) for all that the steps to come depend on beside the particles, and for what has been counted.
+    template <class Self>
+    static void numbers_of(Self& self, auto const& f)
+    {
+        auto& r = self.report_;
+        f("step", self.step_), f("time", self.time_), f("dt", self.dt_);
+        f("free_dt", self.free_dt_), f("first_dt", self.first_dt_), f("warned", self.warned_);
+        f("cfl", self.cfl_), f("fixed_dt", self.fixed_dt_);
+        f("report_steps", r.steps), f("wall_s", r.wall), f("cpu_s", r.cpu);
+        f("mach_max", r.mach), f("density_change_max", r.density_change), f("energy_rise_max", r.energy_rise);
+        f("energy_reference", r.energy_reference), f("kinetic_start", r.start.kinetic);
+        f("potential_start", r.start.potential), f("internal_start", r.start.internal);
+        f("written_energy", self.written_energy_), f("exchanged_moment", self.exchanged_.moment);
+        for (auto* a : {&self.exchanged_.entered, &self.exchanged_.left}) {
+            const std::string side = a == &self.exchanged_.left ? "left_" : "entered_";
+            f(side + "particles", a->particles), f(side + "mass", a->mass), f(side + "energy", a->energy);
+            for (int c = 0; c < dim; ++c) f(along_axis(side + "momentum", c), a->momentum[c]);
+        }
+        Engine::numbers_of(self.system_, f);
+    }
+    /// f(name, value) for what the scene was put together with; a scene that differs in one of them is another scene.
+    [[gnu::cold]] void each_parameter(auto const& f) const
+    {
+        auto const& i = physics().interaction;
+        auto const& n = system_.neighbours();
+        f("range of interaction", i.range()), f("length of interaction", i.length());
+        if constexpr (has_equation_of_state<P>)
+            f("rho0", equation_of_state(physics()).rho0), f("c0", equation_of_state(physics()).c0);
+        const Stiffness s = stiffness_of_all();
+        f("viscosity", s.viscosity), f("contact frequency", s.contact_frequency);
+        for (int c = 0; c < dim; ++c) f(along_axis("gravity", c), g_[c]);
+        f("skin", n.skin), f("bin edge over range", n.bin_edge()), f("trigger", n.closed_in());
+        f("bins in a range", n.finer), f("skin by place", n.local);
+        if (const auto box = system_.boundary().template box<dim>())
+            for (int c = 0; c < dim; ++c)
+                f(along_axis("lower corner of the box", c), box->lo[c]),
+                    f(along_axis("upper corner of the box", c), box->hi[c]);
+        system_.each_species([&](auto k) {
+            auto const& p = system_.template species<k()>().particles;
+            for_each(p.uniform, [&]<class F>(F field) {
+                f(std::string(F::name) + " of species " + std::to_string(k()), p.value(field));
+            });
+        });
+    }
+    /// Whether the particles are those that the scene last heard of.
+    [[nodiscard]] bool prepared() const { return prepared_; }
+    /// The state of another time takes the place of this one. fill() puts it into the particles and the numbers; then
+    /// lists(system) builds the lists of then.
+    [[gnu::cold]] void resume(Box<dim> const& grid_box, std::string const& criterion, std::vector<std::string> warnings,
+                              auto const& fill, auto const& lists)
+    {
+        static std::set<std::string> words; // a criterion is a view
+        system_.use(make_grid(grid_box));
+        fill();
+        lists(system_);
+        criterion_ = *words.insert(criterion).first;
+        report_.warnings = std::move(warnings);
+        stiffness_ = stiffness_of_all();
+        if constexpr (Engine::M::moves) system_.boundary().move_to(time_);
+        prepared_ = true, stopped_ = false, resumed_ = true;
+    }
+    /// The bins of lists beyond the range, in a box.
+    [[gnu::cold]] [[nodiscard]] Grid<dim> make_grid(Box<dim> const& box) const
+    {
+        constexpr int by_dimension[] = {64, 16, 6}, of_many_ranks[] = {16, 4, 2}; // several cells a rank
+        const int cell = system_.backend().cell > 0 ? system_.backend().cell
+                         : Engine::alone            ? by_dimension[dim - 1]
+                                                    : of_many_ranks[dim - 1];
+        auto const& n = system_.neighbours();
+        return Grid<dim>(box, system_.boundary().template edges<dim>(), physics().interaction.range() * n.bin_edge(),
+                         n.finer, cell);
+    }
+
 private:
+    /// The message of a stop names the files that an output has saved for it.
+    template <class Output>
+    static void tell([[maybe_unused]] Stop& stop, [[maybe_unused]] Output const& output)
+    {
+        if constexpr (requires { stop.add(output.saved()); }) stop.add(output.saved());
+    }
+    [[nodiscard]] Stiffness stiffness_of_all() const
+    {
+        const double m = least(mass);
+        Stiffness s = stiffness_of(physics(), m, least(radius));
+        detail::each_in(system_.terms(), [&](auto const& t) {
+            if constexpr (requires { t.pushes; })
+                s.contact_frequency = std::max(s.contact_frequency, t.contact_frequency(m));
+        });
+        return s;
+    }
     /// A particle term other than Gravity that pushes: a driving force of unknown work.
     static constexpr bool driven_by_user = []<class... X>(std::tuple<X...> const*) {
         return (false || ... ||
@@ -373,6 +496,28 @@ private:
     }(static_cast<typename P::Terms const*>(nullptr));
     static constexpr bool needs_acceleration = has_equation_of_state<P> || I::ahead_acceleration > 0;
 
+    /// Ranks that run different scenes, or not to the same end, would wait for each other for ever.
+    [[gnu::cold]] void agree_on(RunOptions const& o) const
+    {
+        const double mine[] = {o.until,
+                               double(o.steps),
+                               o.cfl,
+                               o.dt,
+                               double(step_),
+                               double(system_.backend().cell),
+                               physics().interaction.range(),
+                               system_.neighbours().skin,
+                               system_.neighbours().bin_edge()};
+        constexpr const char* names[] = {"until", "steps", "cfl", "dt", "the step", "cell", "range", "skin", "bins"};
+        std::array<double, std::size(mine)> least, most;
+        std::copy(std::begin(mine), std::end(mine), least.begin()), most = least;
+        system_.ranks().each(least, agree::Least{});
+        system_.ranks().each(most, agree::Most{});
+        for (std::size_t k = 0; k < least.size(); ++k)
+            if (least[k] != most[k])
+                throw BadInput(names[k], text(least[k]) + " on one rank and " + text(most[k]) + " on another",
+                               "the same on all ranks");
+    }
     void before_step([[maybe_unused]] auto& output)
     {
         if constexpr (requires { output.before_step(*this); }) output.before_step(*this);
@@ -484,9 +629,16 @@ private:
             auto& p = system_.template species<1>().particles;
             std::vector<Point> x;
             std::vector<int> of;
-            system_.boundary().place(physics().interaction.range(),
-                                     [&](Point const& at, int k = 0) { x.push_back(at), of.push_back(k); });
-            p.resize(x.size());
+            std::vector<std::uint32_t> numbers;
+            std::size_t placed = 0;
+            system_.boundary().place(physics().interaction.range(), [&](Point const& at, int k = 0) {
+                const std::size_t number = placed++;
+                if (!system_.starts_here(number)) return;
+                x.push_back(at), of.push_back(k);
+                if constexpr (!Engine::alone) numbers.push_back(std::uint32_t(number));
+            });
+            if constexpr (Engine::alone) p.resize(x.size());
+            else system_.template adopt<1>(std::move(numbers), placed);
             for (std::size_t i = 0; i < x.size(); ++i) {
                 p.put(position, i, x[i]);
                 if constexpr (Engine::M::moves) p.put(rest_position, i, x[i]), p.put(part, i, of[i]);
@@ -540,7 +692,7 @@ private:
     {
         if constexpr (!requires { I::reflects; })
             if (system_.reflect()) system_.forget_kick_rates();
-        if (system_.lost()) stop_lost();
+        if (system_.lost()) together(system_.ranks(), [&] { stop_lost(); });
     }
     /// Walls of contact that move are, in this step, where they are when the integrator takes its last rates.
     void move_contacts()
@@ -555,13 +707,15 @@ private:
         if constexpr (std::remove_cvref_t<decltype(p)>::template has<Radius>) return p.at(radius, i);
         else return 0;
     }
-    [[noreturn, gnu::cold]] void stop_lost() const
+    [[gnu::cold]] void stop_lost() const
     {
         auto const& p = system_.mobile();
         const std::size_t i = detail::first_by_id(p, [&](std::size_t k) {
             Point x = p.at(position, k), v = p.at(velocity, k);
             return system_.boundary().reflect(x, v, radius_of(p, k)) != B::Bounce::none;
         });
+        if constexpr (!Engine::alone)
+            if (i == p.size()) return; // it is another rank's
         StopFacts f = i < p.size() ? detail::facts_of(p, i) : StopFacts{};
         f.step = step_, f.time = time_, f.quantity = "the bounces off two walls in one step", f.limit = B::bounces;
         f.value = std::numeric_limits<double>::infinity();
@@ -604,6 +758,15 @@ private:
             throw BadInput("position of particle " + std::to_string(p.id()[i]),
                            text(system_.boundary().template beyond<dim>(p.at(position, i))) + " m beyond a wall",
                            "inside the walls");
+        // Where places are rounded by a hundredth of the length that forces vary over, forces are noise.
+        const double rounding = std::numeric_limits<typename Engine::T>::epsilon() / 2,
+                     length = physics().interaction.length();
+        for (std::size_t k = 0; k < p.size(); ++k)
+            for (int c = 0; c < dim; ++c)
+                require(std::abs(p.at(position, k)[c]) * rounding <= 0.01 * length,
+                        "position of particle " + std::to_string(p.id()[k]), p.at(position, k)[c],
+                        "nearer to the origin than " + text(0.01 * length / rounding) +
+                            " m: there it is rounded by a hundredth of the particles' length");
         if constexpr (Set<Q::fields>::template contains<Radius> && requires { physics().interaction.largest; })
             for (std::size_t k = first; k < p.size(); ++k)
                 require(p.at(radius, k) <= physics().interaction.largest,
@@ -612,8 +775,6 @@ private:
     }
     [[gnu::cold]] Grid<dim> make_grid() const
     {
-        const int by_dimension[] = {64, 16, 6};
-        const int cell = system_.backend().cell > 0 ? system_.backend().cell : by_dimension[dim - 1];
         auto box = system_.boundary().template box<dim>();
         if (!box) {
             Point lo{};
@@ -621,11 +782,15 @@ private:
             for (std::size_t i = 0; i < p.size(); ++i)
                 for (int c = 0; c < dim; ++c)
                     lo[c] = i == 0 ? p.at(position, i)[c] : std::min(lo[c], p.at(position, i)[c]);
+            if constexpr (!Engine::alone) {
+                constexpr double nowhere = std::numeric_limits<double>::infinity();
+                const bool nobody = !system_.ranks().all(!p.empty(), agree::Or{});
+                for (int c = 0; c < dim && !nobody; ++c)
+                    lo[c] = system_.ranks().all(p.empty() ? nowhere : lo[c], agree::Least{});
+            }
             box = Box<dim>{lo, lo};
         }
-        auto const& n = system_.neighbours();
-        return Grid<dim>(*box, system_.boundary().template edges<dim>(), physics().interaction.range() * n.bin_edge(),
-                         n.finer, cell);
+        return make_grid(*box);
     }
     void rebuild(bool wide = false)
     {
@@ -643,13 +808,13 @@ private:
     }
     [[gnu::cold]] void begin_run(RunOptions const& o)
     {
+        if (resumed_ && step_ > 0 && (o.cfl != cfl_ || o.dt != fixed_dt_))
+            report_.warnings.push_back("the run goes on with cfl " + text(o.cfl) + " and dt " + text(o.dt) +
+                                       " s, before the checkpoint it had " + text(cfl_) + " and " + text(fixed_dt_) +
+                                       " s: it is another run from here");
+        resumed_ = false, cfl_ = o.cfl, fixed_dt_ = o.dt;
         if (step_ > 0) return;
-        const double m = least(mass);
-        stiffness_ = stiffness_of(physics(), m, least(radius));
-        detail::each_in(system_.terms(), [&](auto const& t) {
-            if constexpr (requires { t.pushes; })
-                stiffness_.contact_frequency = std::max(stiffness_.contact_frequency, t.contact_frequency(m));
-        });
+        stiffness_ = stiffness_of_all();
         if (o.dt > 0) return;
         const TimeStep t = time_step(stiffness_, o.cfl, 0, std::sqrt(g_.squaredNorm()));
         require(std::isfinite(t.dt), "dt", o.dt, "above 0: the model has no criterion that bounds the step");
@@ -690,13 +855,38 @@ private:
         if constexpr (has_equation_of_state<P>) {
             auto const& p = system_.mobile();
             if (!p.empty()) spacing = std::pow(p.at(mass, 0) / equation_of_state(physics()).rho0, 1.0 / dim);
+            spacing = system_.ranks().all(spacing, agree::Most{});
         }
         for (auto& warning : advice<I>(physics(), spacing, stiffness_, dt)) report_.warnings.push_back(warning);
+    }
+    void after_step()
+    {
+        auto run = [&] { system_.template phase<When::after_step>(step_, [&] { make_lists_current(); }); };
+        if constexpr (writes_energy) {
+            bool due = false;
+            auto ask = [&](auto const& term) {
+                if constexpr (requires { term.writes_energy; }) due = due || step_ % term.every == 0;
+            };
+            std::apply([&](auto const&... term) { (ask(term), ...); }, system_.terms());
+            const double before = due ? energy().internal : 0;
+            run();
+            if (due) written_energy_ += energy().internal - before;
+        }
+        else run();
     }
     /// Whether the lists may miss a pair at the positions of a step of dt.
     [[nodiscard]] bool stale(Extremes const& e) const
     {
         return system_.stale(e, I::ahead_velocity * dt_, I::ahead_acceleration * dt_ * dt_);
+    }
+    /// A step by the criteria is as short as lists need it: what closes in faster than sound would outrun them.
+    [[gnu::cold]] void shorten(Extremes const& e)
+    {
+        const double way = system_.closing(e, I::ahead_velocity * dt_, I::ahead_acceleration * dt_ * dt_);
+        const double most = system_.neighbours().closed_in() * physics().interaction.range();
+        if (!(way > most)) return;
+        free_dt_ = dt_ *= 0.99 * most / way, criterion_ = "lists"; // ways grow with dt at least in proportion
+        if constexpr (Engine::M::moves) move_markers(dt_);
     }
     /// Lists that do not last one step would miss pairs in silence.
     [[noreturn, gnu::cold]] void stop_outrun(Extremes const& e) const
@@ -724,14 +914,114 @@ private:
                     std::max({report_.density_change, e.most_density / eos.rho0 - 1, 1 - e.least_density / eos.rho0});
         }
         if constexpr (W::on) {
-            if (e.poison != 0) stop_if_not_finite(system_.mobile(), step_, time_);
+            if (e.poison != 0)
+                together(system_.ranks(),
+                         [&] { stop_if_not_finite(system_.mobile(), step_, time_, [&] { return origin(); }); });
+            if constexpr (has_equation_of_state<P>)
+                if (!(e.least_density > 0) || e.most_density > most_density())
+                    together(system_.ranks(), [&] { stop_of_density(system_.mobile(), most_density(), step_, time_); });
         }
+    }
+    [[nodiscard]] double most_density() const
+    {
+        auto const& eos = equation_of_state(physics());
+        if constexpr (requires { eos.most_compression; }) return eos.most_compression * eos.rho0;
+        else return std::numeric_limits<double>::infinity();
+    }
+    /// Pairs that are too near; the smallest radius.
+    [[gnu::cold]] void look_at_start()
+    {
+        if constexpr (Engine::any_pairs && Engine::M::planner.meet(0, 0))
+            look_at_pairs(system_, watch_.overlap, step_, time_, report_.warnings);
+        if (stiffness_.contact_frequency <= 0) return;
+        auto const& p = system_.mobile();
+        for (std::size_t i = 0; i < p.size(); ++i) least_radius_ = std::min(least_radius_, radius_of(p, i));
+    }
+    /// Contacts begin within what two grains close in by in one step: a tenth of a radius is told, a radius is a stop.
+    void look_at_way(Extremes const& e)
+    {
+        if (stiffness_.contact_frequency <= 0) return;
+        const double way = std::min(e.speed * dt_, system_.closing(e.unmoved(), dt_, 0)), r = least_radius_;
+        if (way > 0.1 * r && !told_way_) warn_of_way(way);
+        if (way > r) stop_way(way);
+    }
+    [[gnu::cold]] void warn_of_way(double way)
+    {
+        told_way_ = true;
+        report_.warnings.push_back("grains move by " + text(way / least_radius_) +
+                                   " radii in a step at t = " + text(time_) +
+                                   " s: contacts that begin deeper than a tenth are not resolved; take a smaller dt");
+    }
+    [[noreturn, gnu::cold]] void stop_way(double way) const
+    {
+        auto const& p = system_.mobile();
+        const double most = way / dt_;
+        const std::size_t i = detail::first_by_id(
+            p, [&](std::size_t k) { return p.at(velocity, k).squaredNorm() >= most * most * (1 - 1e-12); });
+        StopFacts f = i < p.size() ? detail::facts_of(p, i) : StopFacts{};
+        f.step = step_, f.time = time_, f.quantity = "the way of a grain in one step [m]", f.value = way;
+        f.limit = least_radius_;
+        throw OverlapTooDeep(f, "a contact would begin deeper than a radius, or be missed: take a smaller dt");
+    }
+    /// Remembers a state from which the steps until now can be run again: that of the last rebuild, as lists go with it, or
+    /// a later one; integrators that save do so in each step.
+    void keep_step()
+    {
+        constexpr std::size_t most = 100;
+        if (I::saves || kept_rebuild_ != system_.rebuilds() || kept_dt_.size() >= most) {
+            if constexpr (!I::saves) system_.save();
+            kept_dt_.clear();
+            kept_rebuild_ = system_.rebuilds(), kept_step_ = step_, kept_time_ = time_;
+        }
+        kept_dt_.push_back(dt_);
+    }
+    /// Which term made a value that is not finite, found by running the steps since the kept state again; this state is put
+    /// back afterwards.
+    [[gnu::cold]] Origin origin()
+    {
+        if constexpr (!Engine::alone) return {}; // a replay would be of all ranks
+        if (kept_dt_.empty() || kept_rebuild_ != system_.rebuilds()) return {};
+        const double time = time_;
+        Engine failed = system_;
+        Origin found;
+        try {
+            found = origin_of_replay();
+        }
+        catch (Stop const&) {
+        } // one that came before
+        system_ = std::move(failed);
+        time_ = time;
+        return found;
+    }
+    [[gnu::cold]] Origin origin_of_replay()
+    {
+        if (!system_.restore()) return {};
+        time_ = kept_time_;
+        for (std::size_t k = 0; k < kept_dt_.size(); ++k) {
+            const std::int64_t step = kept_step_ + std::int64_t(k);
+            if constexpr (Engine::M::moves) move_markers(kept_dt_[k]);
+            if (k > 0 || !I::saves) system_.template phase<When::before_step>(step, [] {});
+            Replay<Engine> again(std::move(system_));
+            integrator_.step(again, kept_dt_[k]);
+            system_ = static_cast<Engine&&>(again);
+            if (again.found()) return again.origin();
+            if constexpr (Engine::reflects) reflect();
+            system_.template phase<When::after_step>(step, [] {});
+            time_ += kept_dt_[k];
+        }
+        return {};
     }
     [[gnu::cold]] void final_look()
     {
         look(system_.extremes());
         if (!system_.stale(system_.extremes(), 0, 0)) look_at_energy(); // a rebuild here would wrap the last state
-        stop_if_outside(system_.mobile(), system_.boundary(), physics().interaction.range(), step_, time_);
+        look_outside();
+    }
+    void look_outside() const
+    {
+        together(system_.ranks(), [&] {
+            stop_if_outside(system_.mobile(), system_.boundary(), physics().interaction.range(), step_, time_);
+        });
     }
     void look_at_energy()
     {
@@ -788,10 +1078,15 @@ private:
     Exchanged<dim> exchanged_;
     double came_at_start_ = 0; ///< energy that particles had brought when the watch began [J]
     std::function<bool()> interrupted_ = [] { return false; };
-    double time_ = 0, dt_ = 0, free_dt_ = 0, first_dt_ = 0;
+    double time_ = 0, dt_ = 0, free_dt_ = 0, first_dt_ = 0, cfl_ = 0, fixed_dt_ = 0, written_energy_ = 0;
     std::string_view criterion_ = "none";
     std::int64_t step_ = 0;
-    bool prepared_ = false, warned_ = false, stopped_ = false;
+    bool prepared_ = false, warned_ = false, stopped_ = false, resumed_ = false;
+    bool told_way_ = false;
+    double least_radius_ = std::numeric_limits<double>::infinity(); ///< [m]
+    std::vector<double> kept_dt_;                                   ///< of the steps since the kept state [s]
+    std::int64_t kept_step_ = 0, kept_rebuild_ = -1;
+    double kept_time_ = 0; ///< [s]
 };
 
 } // namespace spate

@@ -44,7 +44,7 @@ TEST(DamBreak, HasTheMarkersOfTheSeed)
 // Kleefsman et al. (2005): the box is 8 by 20 by 8 points of the lattice, but for those that are deeper than 3 dx.
 TEST(DamBreak, HasTheBoxesOfTheExperiments)
 {
-    const long lining = 167L * 56 * 53 - 161L * 50 * 50;
+    const long lining = 167L * 56 * 56 - 161L * 50 * 50;
     EXPECT_EQ(counts<3>("obstacle"), Counts(62 * 50 * 27, lining + 8 * 20 * 8 - 2 * 14 * 2));
     EXPECT_EQ(counts<2>("lobovsky").first, 240 * 120);
     EXPECT_EQ(counts<3>("lobovsky").first, 60 * 15 * 30);

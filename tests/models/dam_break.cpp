@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A column of water twice as high as wide falls in 2D, in the scene of the front page, against Martin & Moyce (1952):
 // the front alone passes even for runs that are blowing up, so energy, density and leaks are looked at as well.
+#include "models/known_gap.hpp"
 #include "models/results.hpp"
 #include "oracle/table.hpp"
 
@@ -167,8 +168,16 @@ void expect_the_fall(Wall wall)
     for (int n : {20, 40, 80}) {
         SCOPED_TRACE(n);
         const Fall f = fall(n, wall);
-        if (n > 20 || !std::same_as<Wall, ByContinuity>) {
-            EXPECT_LE(f.error, 0.025); // there 2.65 %: known gaps
+        const std::string here = std::string(wall.name) + " H/dx " + std::to_string(n);
+        if (n == 20 && std::same_as<Wall, ByContinuity>) models::known_gap("V25 front " + here, f.error);
+        else {
+            EXPECT_LE(f.error, 0.025);
+        }
+        // As it stands, since the plan does not say that heights are shifted as the front is.
+        if (std::same_as<Wall, ByContinuity> || (n == 80 && std::same_as<Wall, Extrapolated>))
+            models::known_gap("V25 height " + here, f.height_difference);
+        else {
+            EXPECT_LE(f.height_difference, 0.05);
         }
         EXPECT_GE(f.speed, 1.2);
         EXPECT_LE(f.speed, 1.4);

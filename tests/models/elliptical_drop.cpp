@@ -2,6 +2,7 @@
 // A drop that is stretched (Monaghan 1994, section 5): V22 of the validation plan. A disc of radius R starts with
 // v = A0 (-x, y) and stays an ellipse of the same area in an incompressible fluid; the table is the solution of its
 // ordinary differential equation, in units of R and 1/A0.
+#include "models/known_gap.hpp"
 #include "models/results.hpp"
 #include "oracle/table.hpp"
 
@@ -61,8 +62,8 @@ Shape shape(auto const& s, double dx)
     return {2 * std::sqrt(xx / area), 2 * std::sqrt(yy / area), area, far};
 }
 
-/// The gates of V22, at R/dx = 40: semi-axes 1 %, area 0.5 %, at each time of the table to A0 t = 2. The minor one is told
-/// only once the lattice has been stretched by a half (A0 t = 0.4): docs/results/validation.md, known gaps.
+/// The gates of V22, at R/dx = 40: semi-axes 1 %, area 0.5 %, at each time of the table to A0 t = 2. The minor one is a
+/// known gap once the lattice has been stretched by a half (A0 t = 0.4).
 template <class Kernel>
 void expect_the_solution(std::string const& what, double smoothing)
 {
@@ -97,6 +98,7 @@ void expect_the_solution(std::string const& what, double smoothing)
         "%.2f %% at the end, energy lost %.2f %%\n",
         what.c_str(), n, 100 * minor_off, 100 * major_off, 100 * area_off, 100 * far,
         100 * (1 - s.energy().total() / start));
+    models::known_gap("V22 minor semi-axis " + what, minor_off);
 }
 TEST(EllipticalDrop, HasTheSemiAxesOfTheSolution) { expect_the_solution<CubicSpline<2>>("cubic_spline", 1.2); }
 TEST(EllipticalDrop, HasTheSemiAxesOfTheSolutionWithWendlandC2)

@@ -12,12 +12,12 @@ namespace models {
 
 /// Quintic spline at h = dx; c0 ten times the fastest flow; C = 0.25. Shifting goes with the C = 1.5 of Sun et al. (2017), for a
 /// step of 1.5 h/c0, so with 6 times the Courant number of the step that is taken, by sound or by viscosity.
-template <class... Term>
+template <int Dim = 2, class... Term>
 auto internal_flow(double dx, double rho0, double nu, double fastest, Term... term)
 {
     using namespace spate;
     const double c0 = 10 * fastest, courant = std::min(0.25, 0.125 * c0 * dx / nu);
-    return wcsph(QuinticSpline<2>{.h = dx}, LinearEos{.rho0 = rho0, .c0 = c0}, Continuity<2>{},
+    return wcsph(QuinticSpline<Dim>{.h = dx}, LinearEos{.rho0 = rho0, .c0 = c0}, Continuity<2>{},
                  MolteniColagrossi{.delta = 0.1}, PressureForce<2>{}, LaminarViscosity{.mu = rho0 * nu, .eps = 0},
                  Shifting{.mach = fastest / c0, .cfl = 6 * courant}, term...);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A dam break strikes a wall: pressure against Lobovsky et al. (2014), H = 0.3 m, in the scene of `dam_break --dim 2
 // --case lobovsky`; V28 of the validation plan. P = p/(rho g H), tau = t sqrt(g/H).
+#include "models/known_gap.hpp"
 #include "models/results.hpp"
 #include "models/series.hpp"
 
@@ -65,13 +66,17 @@ TEST(LongLobovsky, PressureIsThatOfTheExperiment)
                     names[k].c_str(), p[k].above(0.1), arrival[k], mean, data.mean(4, 5), impulse,
                     data.integral(2.4, 4), p[k].peak(), data.peak());
         EXPECT_NEAR(p[k].above(0.1) / arrival[k], 1, 0.05);
-        // The upper sensors, and the peak of the lowest, are known gaps: docs/results/validation.md has their numbers.
-        if (k != 2) {
-            EXPECT_NEAR(mean / data.mean(4, 5), 1, 0.15);
+        const double mean_off = std::abs(mean / data.mean(4, 5) - 1),
+                     impulse_off = std::abs(impulse / data.integral(2.4, 4) - 1);
+        if (k == 2) models::known_gap("V28 mean S3", mean_off);
+        else {
+            EXPECT_LE(mean_off, 0.15);
         }
         if (k < 2) {
-            EXPECT_NEAR(impulse / data.integral(2.4, 4), 1, 0.15);
+            EXPECT_LE(impulse_off, 0.15);
         }
+        else models::known_gap("V28 impulse " + names[k].substr(2), impulse_off);
+        if (k == 0) models::known_gap("V28 peak S1", p[k].peak() / 3.04 - 1); // of the raw record
     }
 }
 

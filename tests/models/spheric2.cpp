@@ -32,7 +32,7 @@ TEST(LongSpheric2, PressureAndDepthsAreThoseOfTheExperiment)
     auto water = wcsph(CubicSpline<3>{.h = 1.2 * c.spacing}, Tait{.rho0 = 1000, .c0 = 10 * c.fastest}, Continuity<2>{},
                        DensityDiffusion{.delta = 0.1}, PressureForce<2>{}, ArtificialViscosity{.alpha = c.alpha},
                        Gravity<3>{{0, 0, -g}});
-    Bce tank(c.tank, c.spacing, Adami{.suction = false}, open(top), obstacle(c.box));
+    Bce tank(c.tank, c.spacing, Adami{.suction = false}, open(c.open), obstacle(c.box));
     Simulation dam(water, RungeKutta2{}, tank, Threads{});
     dam.fill(c.water, c.spacing, hydrostatic);
     std::vector<Series> s;

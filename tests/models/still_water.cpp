@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Still water against the exact profile of the compressible fluid (Adami, Hu & Adams 2012, section 6: H = 0.9 m,
 // g = 1 m/s^2, c0 = 10 sqrt(g H)), on walls of every state, in 2D and in 3D: V19 of the validation plan.
+#include "models/known_gap.hpp"
 #include "models/results.hpp"
 
 #include "spate/measure/leaks.hpp"
@@ -201,9 +202,13 @@ TYPED_TEST(StillWaterOn, HasTheExactPressure)
     const Worst w = watch(s, H / n, 2);
     tell(this->name("2D, H/dx 50, short"), w);
     this->expect(w, this->gate);
+    if (std::same_as<TypeParam, ByContinuity>) {
+        EXPECT_LE(w.floor, 0.01);
+    }
+    else models::known_gap(std::string("V19 floor ") + TypeParam::name, w.floor);
 }
 /// In 3D with walls on all sides, and a kernel whose gradient is true on its lattice (to 0.06 %; the cubic spline's at 1.2 dx
-/// is too small by 1.8 %). The gate is that of H/dx = 50, and the error of first order in dx.
+/// is too small by 1.8 %).
 TYPED_TEST(StillWaterOn, HasTheExactPressureIn3D)
 {
     constexpr int n = 20;
@@ -211,7 +216,25 @@ TYPED_TEST(StillWaterOn, HasTheExactPressureIn3D)
     calm(s);
     const Worst w = watch(s, H / n, 1);
     tell(this->name("3D, H/dx 20, short"), w);
-    this->expect(w, this->gate * 50 / n);
+    this->expect(w, this->gate);
+    if (std::same_as<TypeParam, Extrapolated>) models::known_gap("V19 floor extrapolated 3D", w.floor);
+    else {
+        EXPECT_LE(w.floor, 0.01);
+    }
+}
+/// The kernel of the other free-surface cases, in 3D.
+TEST(StillWater, HasTheExactPressureIn3DWithTheCubicSpline)
+{
+    constexpr int n = 20;
+    auto s = still<CubicSpline<3>>(n, 1.2);
+    calm(s);
+    const Worst w = watch(s, H / n, 1);
+    tell("3D, H/dx 20, cubic spline", w);
+    EXPECT_LE(w.creep, 0.5);
+    EXPECT_EQ(w.leaks, 0);
+    models::known_gap("V19 3D cubic spline L2", w.l2);
+    models::known_gap("V19 3D cubic spline floor", w.floor);
+    models::known_gap("V19 3D cubic spline kinetic", w.kinetic);
 }
 template <class Wall>
 class LongStillWaterOn : public StillWaterOn<Wall> {};
@@ -224,6 +247,10 @@ TYPED_TEST(LongStillWaterOn, HasTheExactPressureIn3D)
     const Worst w = watch(s, H / n, 1);
     tell(this->name("3D, H/dx 50, short"), w);
     this->expect(w, this->gate);
+    if (std::same_as<TypeParam, Extrapolated>) models::known_gap("V19 floor extrapolated 3D H/dx 50", w.floor);
+    else {
+        EXPECT_LE(w.floor, 0.01);
+    }
 }
 /// The same gates for 20 sqrt(H/g).
 TYPED_TEST(LongStillWaterOn, HasTheExactPressureForTwentyUnits)
@@ -244,9 +271,10 @@ TYPED_TEST(LongStillWaterOn, HasTheExactPressureForTwentyUnits)
     tell(this->name("2D, H/dx 50, 20 units"), all);
     save_profile("still_water_50_profile_" + std::string(TypeParam::name) + ".csv", s);
     this->expect(all, this->gate);
+    models::known_gap(std::string("V19 floor 20 units ") + TypeParam::name, all.floor);
 }
 
-/// The floor is told only above: the cubic spline at h = 1.2 dx on a lattice has a gradient too small by 0.92 %
+/// The floor is a known gap above: the cubic spline at h = 1.2 dx on a lattice has a gradient too small by 0.92 %
 /// (kernel_lattice_constants.csv), so that water at rest presses harder by as much. A kernel whose gradient is true there
 /// (to 0.09 %) meets the gate of the floor too.
 TEST(LongStillWater, HasTheExactPressureOnTheFloorWithWendlandC2)
@@ -285,6 +313,7 @@ TEST(LongStillWater, DoesNotCreepIn100000Steps)
     EXPECT_LE(fourtakas.creep, 0.5);
     EXPECT_GT(molteni.creep, 0.5);
     EXPECT_EQ(fourtakas.leaks, 0);
+    models::known_gap("V19 creep of Fourtakas over a tenth of Molteni", 10 * fourtakas.creep / molteni.creep);
 }
 
 } // namespace

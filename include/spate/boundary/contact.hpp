@@ -9,6 +9,7 @@
 #include "spate/core/box.hpp"
 #include "spate/core/term.hpp"
 
+#include <limits>
 #include <tuple>
 
 namespace spate {
@@ -27,10 +28,17 @@ struct Planes {
                     along_axis("Walls.box length", c), box.size()[c],
                     "at least twice the diameter of the largest grain between two walls of contact");
     }
-    /// f(slot, foot) for each plane that any lane may touch.
+    /// f(slot, foot) for each plane that any lane may touch; few do.
     template <class V>
     [[gnu::always_inline]] void touched(Vec<Dim, V> const& x, V const& reach, auto const& f) const
     {
+        constexpr double none = std::numeric_limits<double>::infinity();
+        V least(none);
+        for (int c = 0; c < Dim; ++c) {
+            const V lo(on[std::size_t(2 * c)] ? box.lo[c] : -none), hi(on[std::size_t(2 * c + 1)] ? box.hi[c] : none);
+            least = min(least, min(x[c] - lo, hi - x[c]));
+        }
+        if (__builtin_expect(!spate::any(least < reach), 1)) return;
         auto along = [&]<int c>(std::integral_constant<int, c> slot) __attribute__((always_inline))
         {
             for (int upper = 0; upper < 2; ++upper) {
@@ -140,10 +148,14 @@ template <class I, class S, class M, int first, class... T>
 struct WallContact {
     static constexpr int dim = I::dim;
     static constexpr auto keeps_of_contact = (Fields<>{} | ... | spate::keeps<T>());
-    static constexpr auto writes = []<int... k, class... F>(std::integer_sequence<int, k...>, Fields<F...>) {
-        auto at = []<int place>(std::integral_constant<int, place>) { return Fields<KeptAtWall<F, first + place>...>{}; };
+    static constexpr auto writes = []<int... k, class... F>(std::integer_sequence<int, k...>, Fields<F...>)
+    {
+        auto at = []<int place>(std::integral_constant<int, place>) {
+            return Fields<KeptAtWall<F, first + place>...>{};
+        };
         return (Fields<>{} | ... | at(std::integral_constant<int, k>{}));
-    }(std::make_integer_sequence<int, S::slots>{}, keeps_of_contact);
+    }
+    (std::make_integer_sequence<int, S::slots>{}, keeps_of_contact);
     static constexpr auto reads = (I::reads | ... | spate::reads_i<T>()) | Fields{position, radius} | writes;
     static constexpr auto adds = (Fields<>{} | ... | spate::adds<T>());
     static constexpr Between between{Role::mobile, Role::any};
@@ -198,21 +210,22 @@ struct WallContact {
         std::array<Kept, std::size_t(S::slots)> after;
         if constexpr (keeps_any)
             for (auto& k : after) clear(k); // what is not touched is forgotten
-        each_contact<V>(i, [&](auto slot, auto const& j, auto const& ij) __attribute__((always_inline)) {
-            using Mask = std::remove_cvref_t<decltype(ij.mask)>;
-            Seen kept;
-            kept.elapsed = V(elapsed);
-            each_kept<slot()>([&](auto f, auto at) { kept[f] = was(i, at); });
-            each_term([&]<class X>(X const& t) __attribute__((always_inline)) {
-                const detail::SeenAtWall<X, In, Mask, Seen> seen{i, ij.mask, kept};
-                t(seen, j, ij);
+        each_contact<V>(
+            i, [&](auto slot, auto const& j, auto const& ij) __attribute__((always_inline)) {
+                using Mask = std::remove_cvref_t<decltype(ij.mask)>;
+                Seen kept;
+                kept.elapsed = V(elapsed);
+                each_kept<slot()>([&](auto f, auto at) { kept[f] = was(i, at); });
+                each_term([&]<class X>(X const& t) __attribute__((always_inline)) {
+                    const detail::SeenAtWall<X, In, Mask, Seen> seen{i, ij.mask, kept};
+                    t(seen, j, ij);
+                });
+                each_kept<slot()>([&](auto f, auto at) {
+                    const auto old = was(i, at);
+                    auto& value = after[std::size_t(slot())][f];
+                    value = where(ij.mask, old + V(reach) * (kept[f] - old), value);
+                });
             });
-            each_kept<slot()>([&](auto f, auto at) {
-                const auto old = was(i, at);
-                auto& value = after[std::size_t(slot())][f];
-                value = where(ij.mask, old + V(reach) * (kept[f] - old), value);
-            });
-        });
         if constexpr (keeps_any && !requires { In::only_shown; })
             store(i, after, std::make_integer_sequence<int, S::slots>{});
     }
@@ -222,16 +235,16 @@ private:
 
     [[gnu::always_inline]] void each_term(auto const& f) const
     {
-        std::apply([&](auto const&... t) __attribute__((always_inline)) { (f(t), ...); }, terms);
+        std::apply(
+            [&](auto const&... t) __attribute__((always_inline)) { (f(t), ...); }, terms);
     }
     /// f(field of the contact, field of the particle) for all that is kept at a place.
     template <int slot>
     [[gnu::always_inline]] static void each_kept(auto const& f)
     {
         for_each(
-            keeps_of_contact, [&]<class F>(F field) __attribute__((always_inline)) {
-                f(field, KeptAtWall<F, first + slot>{});
-            });
+            keeps_of_contact, [&]<class F>(F field)
+                                  __attribute__((always_inline)) { f(field, KeptAtWall<F, first + slot>{}); });
     }
     /// What was kept: of a field that the term reads and sets the value before.
     template <class F>

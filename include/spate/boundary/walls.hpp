@@ -89,9 +89,11 @@ public:
     template <class P>
     [[nodiscard]] auto terms(P const& physics) const requires(touches)
     {
-        return [&]<std::size_t... k>(std::index_sequence<k...>) {
+        return [&]<std::size_t... k>(std::index_sequence<k...>)
+        {
             return std::tuple{term_of<int(k)>(physics.interaction, std::get<k>(parts_))...};
-        }(std::make_index_sequence<std::tuple_size_v<Parts>>{});
+        }
+        (std::make_index_sequence<std::tuple_size_v<Parts>>{});
     }
 
     /// Whether any lane is through a plane that reflects.

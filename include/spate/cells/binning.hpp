@@ -27,11 +27,11 @@ struct Places {
     std::array<T const*, std::size_t(Dim)> x; ///< columns
     std::size_t size;                         ///< particles
 
-    template <class P>
-    static Places of(P const& p)
+    template <class P, Field F = Position>
+    static Places of(P const& p, F where = {})
     {
         Places places{{}, p.size()};
-        for (std::size_t c = 0; c < std::size_t(Dim); ++c) places.x[c] = p.column(position)[c].data();
+        for (std::size_t c = 0; c < std::size_t(Dim); ++c) places.x[c] = p.column(where)[c].data();
         return places;
     }
 };
@@ -39,11 +39,11 @@ struct Places {
 template <int Dim>
 class Binning {
 public:
-    /// Sorts the particles by (cell, bin, id) of their present position and finds the occupied cells.
-    template <class P>
-    void sort(P& p, Grid<Dim> const& grid)
+    /// Sorts the particles by (cell, bin, id) of their position, or of another field, and finds the occupied cells.
+    template <class P, Field F = Position>
+    void sort(P& p, Grid<Dim> const& grid, F where = {})
     {
-        const auto places = Places<Dim, typename P::real>::of(p); // the columns stay where they are
+        const auto places = Places<Dim, typename P::real>::of(p, where); // the columns stay where they are
         p.permute(order_of(places, p.id(), grid));
         make_images(places, grid);
     }

@@ -41,6 +41,28 @@ struct CellLists {
     bool in_order = true;   ///< lanes hold targets one after the other
 };
 
+/// Particles of a source that others own, as far as targets here reach: their records follow those of the images.
+template <int Dim, class T>
+struct Foreign {
+    Places<Dim, T> places{};
+    Binning<Dim> const* bins = nullptr;
+    std::int32_t first = 0; ///< record of the first of them
+    std::vector<std::uint32_t> const* ids = nullptr;
+
+    [[nodiscard]] std::int32_t record_of(std::int32_t j, int code) const
+    {
+        return first + (code == 0 ? j : bins->record_of(j, code, places.size) - 1); // they need no second sentinel
+    }
+    /// Records of them and of their images.
+    [[nodiscard]] std::size_t records() const { return bins ? places.size + bins->images().of.size() : 0; }
+    /// Which of them a record is.
+    [[nodiscard]] std::size_t number_of(std::size_t record) const
+    {
+        const std::size_t k = record - std::size_t(first);
+        return k < places.size ? k : std::size_t(bins->images().of[k - places.size]);
+    }
+};
+
 template <int Dim>
 class Lists {
 public:
@@ -52,6 +74,9 @@ public:
         Binning<Dim> const& bins;
         int record; ///< length of a record of the source
         bool same;  ///< target and source are one species: a particle is not its own neighbour
+        Foreign<Dim, T> const* foreign = nullptr;
+
+        [[nodiscard]] std::size_t records() const { return places.size + (foreign ? foreign->records() : 0); }
     };
     /// Builds the lists of a target over all its sources (at most two) together: their blocks hold the same targets.
     /// \param W  targets in a block    \param window  see Neighbours
@@ -61,7 +86,7 @@ public:
                       double range, Skins<Dim> const& skins, double beyond, Workers const& backend,
                       std::type_identity_t<std::span<const From<T>>> sources)
     {
-        for (auto const& from : sources) from.lists.begin_build(at.cells(), from.record, from.places.size);
+        for (auto const& from : sources) from.lists.begin_build(at.cells(), from.record, from.records());
         backend.for_each(at.cells(), [&](std::size_t k) {
             build_cell<T>(k, target, at, grid, W, window, range, skins, beyond, sources);
         });
@@ -190,7 +215,7 @@ private:
             if (!whole_cells || !gathered) {
                 if constexpr (whole_cells) corner[1] -= r;
                 for (std::size_t q = 0; q < sources; ++q) {
-                    gather(open[q].near, corner, from[q].places, from[q].bins, grid);
+                    gather(open[q].near, corner, from[q], grid);
                     open[q].make_room(std::size_t(window), std::size_t(count));
                 }
                 if constexpr (whole_cells) corner[1] += r;
@@ -325,8 +350,7 @@ private:
 
     /// Copies the candidates of one row of a cell: rows in the order of the global bins, images in their place.
     template <class T>
-    static void gather(Candidates& near, Index<Dim> const& corner, Places<Dim, T> const& source, Binning<Dim> const& of,
-                       Grid<Dim> const& grid)
+    static void gather(Candidates& near, Index<Dim> const& corner, From<T> const& source, Grid<Dim> const& grid)
     {
         const int reach_x = grid.finer(), nx = grid.bins_of_cell(0) + 2 * reach_x;
         const int near_rows = Dim == 1 ? 1 : Dim == 2 ? grid.bins_of_cell(1) + 2 : 9;
@@ -360,15 +384,24 @@ private:
                     const std::int32_t bins = grid.bins(0), x = corner[0] - reach_x + b;
                     stretch = std::min(stretch, (x < 0 ? 0 : x < bins ? bins : bins + reach_x) - x);
                 }
-                const std::int32_t k = exists ? of.find(cell) : -1;
+                Binning<Dim> const* of = &source.bins;
+                std::int32_t k = exists ? of->find(cell) : -1;
+                if (k < 0 && exists && source.foreign) of = source.foreign->bins, k = of->find(cell);
                 if (k < 0) {
                     for (int s = 0; s < stretch; ++s) first[b + s] = std::int32_t(near.count);
                 }
                 else {
-                    const std::int32_t j0 = of.first(std::size_t(k), local);
+                    const std::int32_t j0 = of->first(std::size_t(k), local);
                     for (int s = 0; s < stretch; ++s)
-                        first[b + s] = std::int32_t(near.count) + of.first(std::size_t(k), local + s) - j0;
-                    copy(near, j0, of.first(std::size_t(k), local + stretch), full, corner, source, of, grid);
+                        first[b + s] = std::int32_t(near.count) + of->first(std::size_t(k), local + s) - j0;
+                    const std::int32_t j1 = of->first(std::size_t(k), local + stretch);
+                    if (of == &source.bins)
+                        copy(near, j0, j1, full, corner, source.places, grid, [&](std::int32_t j) {
+                            return full == 0 ? j : of->record_of(j, full, source.places.size);
+                        });
+                    else
+                        copy(near, j0, j1, full, corner, source.foreign->places, grid,
+                             [&](std::int32_t j) { return source.foreign->record_of(j, full); });
                 }
                 b += stretch;
             }
@@ -393,7 +426,7 @@ private:
     }
     template <class T>
     static void copy(Candidates& near, std::int32_t j0, std::int32_t j1, int code, Index<Dim> const& corner,
-                     Places<Dim, T> const& source, Binning<Dim> const& of, Grid<Dim> const& grid)
+                     Places<Dim, T> const& source, Grid<Dim> const& grid, auto const& record)
     {
         const std::size_t n = std::size_t(j1 - j0), o = near.count;
         near.count += n;
@@ -408,9 +441,7 @@ private:
             const double origin = grid.corner(c, corner[std::size_t(c)]) - shift[c];
             for (std::size_t s = 0; s < n; ++s) out[s] = float(double(x[s]) - origin);
         }
-        for (std::size_t s = 0; s < n; ++s)
-            near.number[o + s] =
-                code == 0 ? j0 + std::int32_t(s) : of.record_of(j0 + std::int32_t(s), code, source.size);
+        for (std::size_t s = 0; s < n; ++s) near.number[o + s] = record(j0 + std::int32_t(s));
     }
 
     std::vector<CellLists> cell_;

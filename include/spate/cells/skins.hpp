@@ -5,6 +5,7 @@
 #pragma once
 
 #include "spate/cells/binning.hpp"
+#include "spate/core/ranks.hpp"
 
 #include <atomic>
 #include <span>
@@ -40,6 +41,60 @@ struct alignas(32) Spread {
     }
 };
 
+/// f(cell, patch in the cell) for a patch and all around it, wrapped into the period.
+template <int Dim>
+void each_around(Index<Dim> const& patch, Grid<Dim> const& grid, auto const& f)
+{
+    const int M = grid.cell();
+    constexpr int around = Dim == 1 ? 3 : Dim == 2 ? 9 : 27;
+    for (int q = 0; q < around; ++q) {
+        Index<Dim> cell;
+        std::size_t local = 0, stride = 1;
+        int rest = q;
+        for (int c = 0; c < Dim; ++c, rest /= 3) {
+            std::int32_t at = patch[std::size_t(c)] + rest % 3 - 1;
+            if (grid.periodic(c)) {
+                const std::int32_t n = grid.bins(c) / grid.per_range(c);
+                at = (at % n + n) % n;
+            }
+            cell[std::size_t(c)] = grid.cell_of(c, at * grid.per_range(c));
+            local += stride * std::size_t(at - cell[std::size_t(c)] * M);
+            stride *= std::size_t(M);
+        }
+        f(cell, local);
+    }
+}
+/// The place of a patch, by its number in a cell.
+template <int Dim>
+[[nodiscard]] Index<Dim> patch_at(Index<Dim> const& cell, std::size_t local, Grid<Dim> const& grid)
+{
+    const int M = grid.cell();
+    Index<Dim> patch;
+    auto rest = std::int32_t(local);
+    for (int c = 0; c < Dim; ++c, rest /= M) patch[std::size_t(c)] = cell[std::size_t(c)] * M + rest % M;
+    return patch;
+}
+
+template <int Dim>
+[[nodiscard]] Index<Dim> cell_of_patch(Index<Dim> const& patch, Grid<Dim> const& grid)
+{
+    Index<Dim> cell;
+    for (int c = 0; c < Dim; ++c) cell[std::size_t(c)] = grid.cell_of(c, patch[std::size_t(c)] * grid.per_range(c));
+    return cell;
+}
+/// The number of a patch in an occupied cell.
+template <int Dim>
+[[nodiscard]] std::size_t number_of_patch(Index<Dim> const& patch, Binning<Dim> const& bins, Grid<Dim> const& grid)
+{
+    const Index<Dim> cell = cell_of_patch(patch, grid);
+    std::size_t local = 0;
+    for (int c = Dim - 1; c >= 0; --c) {
+        const auto k = std::size_t(c);
+        local = local * std::size_t(grid.cell()) + std::size_t(patch[k] - cell[k] * grid.cell());
+    }
+    return std::size_t(bins.find(cell)) * std::size_t(grid.bins_of_cell() / grid.finer()) + local;
+}
+
 /// The skins of the lists of one target, by patch: numbered cell by cell, like bins.
 template <int Dim>
 class Skins {
@@ -51,19 +106,18 @@ public:
         least_ = uniform_ = skin;
     }
     /// Which patches of the mobile particles are near each patch of the target.
-    void look_around(Binning<Dim> const& at, Binning<Dim> const& mobile, Grid<Dim> const& grid)
+    /// \param foreign  mobile particles that others own; their patches are numbered after the own ones
+    void look_around(Binning<Dim> const& at, Binning<Dim> const& mobile, Grid<Dim> const& grid,
+                     Binning<Dim> const* foreign = nullptr)
     {
-        const int M = grid.cell();
         const std::size_t per_cell = patches_of_cell(grid);
         begin_.assign(1, 0);
         near_.clear();
         for (std::size_t k = 0; k < at.cells(); ++k) {
             const Index<Dim> cell = at.cell(k);
             for (std::size_t p = 0; p < per_cell; ++p) {
-                Index<Dim> patch;
-                auto rest = std::int32_t(p);
-                for (int c = 0; c < Dim; ++c, rest /= M) patch[std::size_t(c)] = cell[std::size_t(c)] * M + rest % M;
-                if (!particles_of(at, k * per_cell + p, grid).empty()) near_patches(patch, mobile, grid);
+                if (!particles_of(at, k * per_cell + p, grid).empty())
+                    near_patches(patch_at(cell, p, grid), mobile, grid, foreign);
                 begin_.push_back(std::int32_t(near_.size()));
             }
         }
@@ -82,9 +136,36 @@ public:
         uniform_ = least_ = skin;
         skin_.resize(speed.size());
         for (std::size_t p = 0; p < speed.size(); ++p) {
-            skin_[p] = fastest > 0 ? skin * (at_rest + (1 - at_rest) * (speed[p] / fastest)) : skin;
+            skin_[p] = fastest > 0 && !near(p).empty() ? skin * (at_rest + (1 - at_rest) * (speed[p] / fastest)) : skin;
             least_ = std::min(least_, skin_[p]);
         }
+    }
+    /// The skins of another time. \param skin  where all are the same, and of patches without pairs
+    void use(double skin, std::vector<double> of_patch)
+    {
+        uniform_ = least_ = skin;
+        skin_ = std::move(of_patch);
+        for (double s : skin_) least_ = std::min(least_, s);
+    }
+    /// Where a patch lies, counted in patches along each axis: the same for every size of cells.
+    static Index<Dim> place(Binning<Dim> const& at, std::size_t patch, Grid<Dim> const& grid)
+    {
+        const std::size_t per_cell = patches_of_cell(grid);
+        Index<Dim> place = at.cell(patch / per_cell);
+        auto rest = std::int32_t(patch % per_cell);
+        for (int c = 0; c < Dim; ++c, rest /= grid.cell())
+            place[std::size_t(c)] = place[std::size_t(c)] * grid.cell() + rest % grid.cell();
+        return place;
+    }
+    /// The place of the patch that holds x: the bins of a range.
+    static Index<Dim> place(Vec<Dim, double> const& x, Grid<Dim> const& grid)
+    {
+        Index<Dim> place;
+        for (int c = 0; c < Dim; ++c) {
+            const std::int32_t bin = grid.bin(c, x[c]), n = grid.per_range(c);
+            place[std::size_t(c)] = bin >= 0 ? bin / n : -((n - 1 - bin) / n);
+        }
+        return place;
     }
     /// Fraction of the range by which pairs of a patch may close in.
     [[nodiscard]] double of(std::size_t patch) const { return skin_.empty() ? uniform_ : skin_[patch]; }
@@ -111,32 +192,23 @@ public:
     }
 
 private:
-    void near_patches(Index<Dim> const& patch, Binning<Dim> const& mobile, Grid<Dim> const& grid)
+    void near_patches(Index<Dim> const& patch, Binning<Dim> const& mobile, Grid<Dim> const& grid,
+                      Binning<Dim> const* foreign)
     {
-        const int M = grid.cell();
         const std::size_t per_cell = patches_of_cell(grid);
-        constexpr int around = Dim == 1 ? 3 : Dim == 2 ? 9 : 27;
         Index<Dim> last{};
         std::int32_t found = -2;
-        for (int q = 0; q < around; ++q) {
-            Index<Dim> cell;
-            std::size_t local = 0, stride = 1;
-            int rest = q;
-            for (int c = 0; c < Dim; ++c, rest /= 3) {
-                std::int32_t at = patch[std::size_t(c)] + rest % 3 - 1;
-                if (grid.periodic(c)) {
-                    const std::int32_t n = grid.bins(c) / grid.per_range(c);
-                    at = (at % n + n) % n;
-                }
-                cell[std::size_t(c)] = grid.cell_of(c, at * grid.per_range(c));
-                local += stride * std::size_t(at - cell[std::size_t(c)] * M);
-                stride *= std::size_t(M);
+        Binning<Dim> const* of = &mobile;
+        each_around<Dim>(patch, grid, [&](Index<Dim> const& cell, std::size_t local) {
+            if (found == -2 || cell != last) {
+                of = &mobile, found = mobile.find(cell), last = cell;
+                if (found < 0 && foreign) of = foreign, found = foreign->find(cell);
             }
-            if (found == -2 || cell != last) found = mobile.find(cell), last = cell;
-            if (found < 0) continue;
+            if (found < 0) return;
             const std::size_t number = std::size_t(found) * per_cell + local;
-            if (!particles_of(mobile, number, grid).empty()) near_.push_back(std::int32_t(number));
-        }
+            if (particles_of(*of, number, grid).empty()) return;
+            near_.push_back(std::int32_t(of == &mobile ? number : number + mobile.cells() * per_cell));
+        });
     }
 
     std::vector<std::int32_t> begin_{0}, near_;
@@ -156,41 +228,55 @@ template <int Dim, int Species>
 class LocalSkins {
 public:
     [[nodiscard]] Skins<Dim> const& of(int species) const { return skins_[std::size_t(species)]; }
-    [[nodiscard]] double least() const
-    {
-        double least = skins_[0].least();
-        for (auto const& skins : skins_) least = std::min(least, skins.least());
-        return least;
-    }
+    [[nodiscard]] double least() const { return least_; }
+    [[nodiscard]] bool uniform() const { return uniform_; }
     /// The same skin everywhere.
     void use(double skin)
     {
         for (auto& skins : skins_) skins.use(skin);
+        least_ = skin, uniform_ = true;
+    }
+    /// The skins of another time, by target and patch.
+    void use(double skin, std::array<std::vector<double>, std::size_t(Species)> of_patch, auto const& ranks)
+    {
+        double least = skin;
+        for (std::size_t s = 0; s < skins_.size(); ++s) {
+            skins_[s].use(skin, std::move(of_patch[s]));
+            least = std::min(least, skins_[s].least());
+        }
+        least_ = ranks.all(least, agree::Least{}), uniform_ = false;
     }
     /// Who is near whom, once particles are sorted. \param markers  null: there are none
-    void look_around(Grid<Dim> const& grid, Binning<Dim> const& mobile, [[maybe_unused]] Binning<Dim> const* markers)
+    /// \param foreign_mobile, foreign_markers  those near that others own
+    void look_around(Grid<Dim> const& grid, Binning<Dim> const& mobile, [[maybe_unused]] Binning<Dim> const* markers,
+                     Binning<Dim> const* foreign_mobile = nullptr,
+                     [[maybe_unused]] Binning<Dim> const* foreign_markers = nullptr)
     {
-        skins_[0].look_around(mobile, mobile, grid);
+        skins_[0].look_around(mobile, mobile, grid, foreign_mobile);
+        foreign_ = foreign_mobile ? foreign_mobile->cells() * Skins<Dim>::patches_of_cell(grid) : 0;
         by_marker_.assign(skins_[0].patches(), 0);
         if constexpr (Species == 2) {
-            skins_[1].look_around(*markers, mobile, grid);
-            for (std::size_t p = 0; p < skins_[1].patches(); ++p)
-                for (auto const g : skins_[1].near(p)) by_marker_[std::size_t(g)] = 1;
+            skins_[1].look_around(*markers, mobile, grid, foreign_mobile);
+            mark(skins_[1]);
+            if (!foreign_markers) return;
+            Skins<Dim> of_others;
+            of_others.look_around(*foreign_markers, mobile, grid);
+            mark(of_others);
         }
     }
     /// add(box, i) adds the vectors of mobile particle i to the box of its patch.
     [[nodiscard]] Spreads<Dim> spreads(Grid<Dim> const& grid, Binning<Dim> const& mobile, Spread<Dim> const& markers,
                                        auto const& add, auto const& backend) const
     {
-        Spreads<Dim> of{std::vector<Spread<Dim>>(skins_[0].patches()), markers};
-        in_tasks(of.mobile.size(), backend, [&](std::size_t p) {
+        Spreads<Dim> of{std::vector<Spread<Dim>>(skins_[0].patches() + foreign_), markers};
+        in_tasks(skins_[0].patches(), backend, [&](std::size_t p) {
             const auto here = Skins<Dim>::particles_of(mobile, p, grid);
             for (auto i = here.first; i < here.last; ++i) add(of.mobile[p], std::size_t(i));
         });
         return of;
     }
     /// Skins in proportion to how far apart velocities are, the whole one where that is most.
-    void use(double skin, Spreads<Dim> const& velocities)
+    void use(double skin, Spreads<Dim> const& velocities, auto const& ranks)
     {
         std::array<std::vector<double>, std::size_t(Species)> speed;
         double fastest = 0;
@@ -201,7 +287,13 @@ public:
                 fastest = std::max(fastest, speed[s][p]);
             }
         }
-        for (std::size_t s = 0; s < speed.size(); ++s) skins_[s].use(skin, speed[s], fastest);
+        fastest = ranks.all(fastest, agree::Most{});
+        double least = skin;
+        for (std::size_t s = 0; s < speed.size(); ++s) {
+            skins_[s].use(skin, speed[s], fastest);
+            least = std::min(least, skins_[s].least());
+        }
+        least_ = ranks.all(least, agree::Least{}), uniform_ = false;
     }
     /// Whether in any patch displacements differ by more than its skin, `more` [m] left for what is to come.
     [[nodiscard]] bool outrun(Spreads<Dim> const& displacements, double range, double more, auto const& backend) const
@@ -209,7 +301,8 @@ public:
         std::atomic<bool> any = false;
         for (std::size_t s = 0; s < skins_.size(); ++s)
             in_tasks(skins_[s].patches(), backend, [&](std::size_t p) {
-                if (!any && !(differ(s, p, displacements) + more <= skins_[s].of(p) * range)) any = true;
+                if (any || skins_[s].near(p).empty()) return; // no pairs
+                if (!(differ(s, p, displacements) + more <= skins_[s].of(p) * range)) any = true;
             });
         return any;
     }
@@ -237,8 +330,18 @@ private:
         return all.diagonal();
     }
 
+    void mark(Skins<Dim> const& markers)
+    {
+        for (std::size_t p = 0; p < markers.patches(); ++p)
+            for (auto const g : markers.near(p))
+                if (std::size_t(g) < by_marker_.size()) by_marker_[std::size_t(g)] = 1;
+    }
+
     std::array<Skins<Dim>, std::size_t(Species)> skins_;
     std::vector<char> by_marker_; ///< of each patch of the mobile particles: whether markers are near
+    std::size_t foreign_ = 0;     ///< patches of mobile particles of others
+    double least_ = 0;            ///< of all skins, on all ranks
+    bool uniform_ = true;
 };
 
 } // namespace spate

@@ -16,6 +16,8 @@ struct BadInput : std::invalid_argument {
     [[gnu::cold]] BadInput(std::string const& parameter, std::string const& value, std::string const& allowed)
         : std::invalid_argument("spate: " + parameter + " is " + value + "; allowed is " + allowed)
     {}
+    /// As another rank has said it.
+    explicit BadInput(std::string const& sentence) : std::invalid_argument(sentence) {}
 };
 
 /// A number as a message shows it: the shortest of up to 10 digits.
@@ -54,16 +56,25 @@ struct StopFacts {
     std::string quantity;           ///< the field or measure that broke its limit
     double value = 0;
     double limit = 0;
+    std::string term;        ///< that made the value, where it was one
+    std::int64_t other = -1; ///< id of the neighbour of whom it made it
 };
 
 /// A run that can't go on. `name()` is what summary.json and the exit message carry.
 class Stop : public std::runtime_error {
 public:
     [[gnu::cold]] Stop(std::string name, StopFacts facts, std::string const& advice)
-        : std::runtime_error(sentence(name, facts, advice)), name_(std::move(name)), facts_(std::move(facts))
+        : std::runtime_error(name), message_(sentence(name, facts, advice)), name_(std::move(name)),
+          facts_(std::move(facts))
     {}
     [[nodiscard]] std::string const& name() const { return name_; }
     [[nodiscard]] StopFacts const& facts() const { return facts_; }
+    [[nodiscard]] char const* what() const noexcept override { return message_.c_str(); }
+    /// Ends the message with where the states were saved.
+    void add(std::string const& more)
+    {
+        if (!more.empty()) message_ += "; " + more;
+    }
 
 private:
     [[gnu::cold]] static std::string sentence(std::string const& name, StopFacts const& f, std::string const& advice)
@@ -75,10 +86,13 @@ private:
             s << "particle " << f.particle << " of species " << f.species << " at (" << f.position[0] << ", "
               << f.position[1] << ", " << f.position[2] << ") m with velocity (" << f.velocity[0] << ", "
               << f.velocity[1] << ", " << f.velocity[2] << ") m/s: ";
-        s << f.quantity << " is " << f.value << ", limit " << f.limit << "; " << advice;
+        s << f.quantity << " is " << f.value << ", limit " << f.limit;
+        if (!f.term.empty()) s << ", made by " << f.term;
+        if (f.other >= 0) s << (f.term.empty() ? ", of it and particle " : " with particle ") << f.other;
+        s << "; " << advice;
         return s.str();
     }
-    std::string name_;
+    std::string message_, name_;
     StopFacts facts_;
 };
 struct NonFinite : Stop {
@@ -116,5 +130,33 @@ struct IndexOverflow : Stop {
                "a particle is too far from the origin for the cell index: bound the domain")
     {}
 };
+struct EosDomain : Stop {
+    [[gnu::cold]] explicit EosDomain(StopFacts f)
+        : Stop("EosDomain", std::move(f),
+               "the equation of state has no meaning there: take a smaller dt or cfl, a larger c0, or more dissipation")
+    {}
+};
+struct CoincidentParticles : Stop {
+    [[gnu::cold]] explicit CoincidentParticles(StopFacts f)
+        : Stop("CoincidentParticles", std::move(f), "a contact of two at one place has no normal: move one of them")
+    {}
+};
+struct OverlapTooDeep : Stop {
+    [[gnu::cold]] explicit OverlapTooDeep(StopFacts f, std::string const& advice)
+        : Stop("OverlapTooDeep", std::move(f), advice)
+    {}
+};
+
+/// Throws the stop of a name.
+[[noreturn, gnu::cold]] inline void throw_stop(std::string const& name, StopFacts const& f)
+{
+    if (name == "NonFinite") throw NonFinite(f);
+    if (name == "OutOfDomain") throw OutOfDomain(f);
+    if (name == "EnergyRunaway") throw EnergyRunaway(f);
+    if (name == "DtCollapse") throw DtCollapse(f);
+    if (name == "SkinOutrun") throw SkinOutrun(f);
+    if (name == "IndexOverflow") throw IndexOverflow(f);
+    throw Stop(name, f, "another rank has stopped");
+}
 
 } // namespace spate

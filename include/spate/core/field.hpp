@@ -86,6 +86,8 @@ inline constexpr struct DissipationRate : ScalarField { static constexpr std::st
 inline constexpr struct Dissipated : ScalarField  { static constexpr std::string_view name = "dissipated", unit = "J"; static constexpr Kind kind = Kind::kick; using rates = Fields<DissipationRate>; } dissipated{};
 /// For a term that keeps something of a pair: the time since it was kept.
 inline constexpr struct Elapsed : ScalarField     { static constexpr std::string_view name = "elapsed", unit = "s"; } elapsed{};
+/// In records of pairs that compute in less than the state has: what the position has lost there.
+inline constexpr struct PositionTail : VectorField { static constexpr std::string_view name = "position_tail", unit = "m"; static constexpr bool derived = true; } position_tail{};
 /// Where a particle was when the neighbour lists were built: lists, bins and order are functions of it alone.
 inline constexpr struct BuildPosition : VectorField { static constexpr std::string_view name = "build_position", unit = "m"; } build_position{};
 // clang-format on

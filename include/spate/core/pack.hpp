@@ -197,6 +197,14 @@ template <class V>
     if constexpr (width<V> == 1) return *p;
     else return V(decltype(V::b)::load_unaligned(p));
 }
+/// The same from values of another precision.
+template <class V, Real T>
+requires(!std::same_as<T, scalar_t<V>>) [[gnu::always_inline]] inline V load(T const* p)
+{
+    alignas(64) scalar_t<V> lane[std::size_t(width<V>)];
+    for (int k = 0; k < width<V>; ++k) lane[k] = scalar_t<V>(p[k]);
+    return load<V>(lane);
+}
 template <class V>
 [[gnu::always_inline]] inline void store(scalar_t<V>* p, V const& v)
 {
@@ -205,13 +213,14 @@ template <class V>
     else v.b.store_unaligned(p);
 }
 /// Stores the first `lanes` lanes only: the end of a cell must not touch the next one.
-template <class V>
-[[gnu::always_inline]] inline void store_first(scalar_t<V>* p, V const& v, int lanes)
+template <class V, Real T>
+[[gnu::always_inline]] inline void store_first(T* p, V const& v, int lanes)
 {
-    if (lanes >= width<V>) return store(p, v);
+    if constexpr (std::same_as<T, scalar_t<V>>)
+        if (lanes >= width<V>) return store(p, v);
     alignas(64) scalar_t<V> lane[std::size_t(width<V>)];
     store(lane, v);
-    for (int k = 0; k < lanes; ++k) p[k] = lane[k];
+    for (int k = 0; k < lanes; ++k) p[k] = T(lane[k]);
 }
 /// The largest of the first lanes; a NaN in a lane may be lost (the watch looks for NaN by itself).
 template <class V>

@@ -125,11 +125,11 @@ public:
             return v;
         }
         else {
-            auto const& a = column(g);
-            if constexpr (G::rank == 0) return load<V>(a[0].data() + i);
+            auto const& a = source_of(g);
+            if constexpr (G::rank == 0) return load_lanes<V, G>(a[0].data() + i);
             else {
                 Value<G, Dim, V> v;
-                for (int c = 0; c < components<G, Dim>; ++c) v[c] = load<V>(a[c].data() + i);
+                for (int c = 0; c < components<G, Dim>; ++c) v[c] = load_lanes<V, G>(a[c].data() + i);
                 return v;
             }
         }
@@ -138,9 +138,9 @@ public:
     [[gnu::always_inline]] void store_at(G g, std::size_t i, Value<G, Dim, V> const& v, int lanes = width<V>)
     {
         auto& a = column(g);
-        if constexpr (G::rank == 0) store_first(a[0].data() + i, v, lanes);
+        if constexpr (G::rank == 0) store_lanes(a[0].data() + i, v, lanes);
         else
-            for (int c = 0; c < components<G, Dim>; ++c) store_first(a[c].data() + i, v[c], lanes);
+            for (int c = 0; c < components<G, Dim>; ++c) store_lanes(a[c].data() + i, v[c], lanes);
     }
     /// The record of particles i, i + 1, ...
     template <class V, class... G>
@@ -157,10 +157,11 @@ public:
         Record<Dim, V, Fields<G...>> r;
         auto one = [&]<class X>(X g) __attribute__((always_inline))
         {
-            auto const& a = column(g);
-            if constexpr (X::rank == 0) r[g] = lanes_of<V>(a[0].data() + first, target);
+            auto const& a = source_of(g);
+            auto const at = [target](int l) __attribute__((always_inline)) { return target[l]; };
+            if constexpr (X::rank == 0) r[g] = lanes_of<V, X>(a[0].data() + first, at);
             else
-                for (int c = 0; c < components<X, Dim>; ++c) r[g][c] = lanes_of<V>(a[c].data() + first, target);
+                for (int c = 0; c < components<X, Dim>; ++c) r[g][c] = lanes_of<V, X>(a[c].data() + first, at);
         };
         (one(G{}), ...);
         return r;
@@ -172,9 +173,9 @@ public:
     {
         auto one = [&](T * a, V const& x) __attribute__((always_inline))
         {
-            alignas(64) T lane[std::size_t(width<V>)];
+            alignas(64) scalar_t<V> lane[std::size_t(width<V>)];
             store(lane, x);
-            for (int l = 0; l < lanes; ++l) a[target[l]] = lane[l];
+            for (int l = 0; l < lanes; ++l) a[target[l]] = T(lane[l]);
         };
         auto& a = column(g);
         if constexpr (G::rank == 0) one(a[0].data() + first, v);
@@ -195,11 +196,14 @@ public:
     }
 
     [[nodiscard]] std::vector<std::uint32_t> const& id() const { return id_; }
+    /// The id of the next new particle.
+    [[nodiscard]] std::uint32_t next_id() const { return next_id_; }
     /// Sets the ids; only for set-up and for input, they are unique in a species.
-    void set_ids(std::vector<std::uint32_t> id)
+    /// \param next  the id of the next new one, if it is not the one after the largest
+    void set_ids(std::vector<std::uint32_t> id, std::uint32_t next = 0)
     {
         id_ = std::move(id);
-        next_id_ = id_.empty() ? 0 : *std::max_element(id_.begin(), id_.end()) + 1;
+        next_id_ = std::max(next, id_.empty() ? 0 : *std::max_element(id_.begin(), id_.end()) + 1);
     }
 
     /// Particle k becomes what particle order[k] was.
@@ -220,6 +224,15 @@ public:
         permute(order);
         fit(order.size());
     }
+    /// Room for particles of given ids, all else zero; ids of later new ones are not changed by them.
+    void append(std::vector<std::uint32_t> const& ids)
+    {
+        const std::size_t old = size();
+        id_.insert(id_.end(), ids.begin(), ids.end());
+        fit(old);
+    }
+    /// So many ids are taken by particles elsewhere.
+    void skip_ids(std::size_t n) { next_id_ += std::uint32_t(n); }
     /// Fills the padding with copies of the last particle, so that a whole pack computes with physical values.
     void pad()
     {
@@ -238,6 +251,21 @@ public:
         return b;
     }
 
+    /// What a record of S holds of a stored value; position_tail is what S loses of the position.
+    template <class S, class G>
+    [[gnu::always_inline]] static S rounded(T x)
+    {
+        if constexpr (is_tail<G>) return S(x - T(S(x)));
+        else return S(x);
+    }
+    /// The columns from which a record takes a field.
+    template <class G>
+    [[gnu::always_inline]] auto const& source_of(G g) const
+    {
+        if constexpr (is_tail<G>) return column(position);
+        else return column(g);
+    }
+
 private:
     /// Columns as long as there are particles; zero from a place on: the padding was not zero.
     void fit(std::size_t zero_from)
@@ -247,11 +275,31 @@ private:
             for (auto& a : column(f)) detail::resize(a, whole, zero_from);
         });
     }
+    template <class G>
+    static constexpr bool is_tail = std::same_as<G, PositionTail>;
     template <class V>
-    [[gnu::always_inline]] static V lanes_of(T const* a, std::int32_t const* target)
+    [[gnu::always_inline]] static void store_lanes(T* a, V const& v, int lanes)
     {
-        alignas(64) T lane[std::size_t(width<V>)];
-        for (int l = 0; l < width<V>; ++l) lane[l] = a[target[l]];
+        if constexpr (std::same_as<scalar_t<V>, T>) store_first(a, v, lanes);
+        else {
+            alignas(64) scalar_t<V> lane[std::size_t(width<V>)];
+            store(lane, v);
+            for (int l = 0; l < lanes; ++l) a[l] = T(lane[l]);
+        }
+    }
+    /// One element after the other, as V has them.
+    template <class V, class G>
+    [[gnu::always_inline]] static V load_lanes(T const* a)
+    {
+        if constexpr (std::same_as<scalar_t<V>, T> && !is_tail<G>) return load<V>(a);
+        else return lanes_of<V, G>(a, [](int l) { return l; });
+    }
+    /// Elements at(0), at(1), ... of a column.
+    template <class V, class G>
+    [[gnu::always_inline]] static V lanes_of(T const* a, auto const& at)
+    {
+        alignas(64) scalar_t<V> lane[std::size_t(width<V>)];
+        for (int l = 0; l < width<V>; ++l) lane[l] = rounded<scalar_t<V>, G>(a[at(l)]);
         return load<V>(lane);
     }
     template <class G>

@@ -18,6 +18,7 @@
 
 #include "spate/core/errors.hpp"
 #include "spate/core/fields.hpp"
+#include "spate/core/together.hpp"
 #include "spate/io/detail/every.hpp"
 #include "spate/io/detail/replace_file.hpp"
 #include "spate/io/output_error.hpp"
@@ -75,8 +76,8 @@ template <int Dim>
 } // namespace detail
 
 /// History{directory, 0.001, Front{...}, Probe{...}}: an output of Simulation::run. A column is anything with a name that,
-/// called with the scene, returns a number, a vector or a tensor, or a range of such columns. Rows grow in history.csv.tmp and are
-/// history.csv when the run ends.
+/// called with the scene, returns a number, a vector or a tensor, or a range of such columns. Rows grow in
+/// history.csv.tmp and are history.csv when the run ends. A run that goes on keeps the rows that it had.
 template <class... Column>
 class History {
 public:
@@ -97,9 +98,14 @@ public:
     [[gnu::cold]] void begin(auto& scene)
     {
         const std::string head = heading(scene);
-        errno = 0;
-        out_.open(tmp_, std::ios::trunc);
-        line(head);
+        const bool goes_on = so_far_.written >= 0;
+        by_one(party_of(scene), [&] {
+            if (goes_on) keep_rows(head);
+            errno = 0;
+            out_.open(tmp_, goes_on ? std::ios::app : std::ios::trunc);
+            if (!goes_on) line(head);
+        });
+        if (goes_on) return;
         write(scene);
         every_.due(scene.time());
     }
@@ -109,17 +115,56 @@ public:
     }
     [[gnu::cold]] void end(auto& scene)
     {
-        if (!scene.stopped() && written_ != scene.steps()) write(scene);
-        out_.close();
-        if (!out_) throw OutputError(file_, errno);
-        std::error_code error;
-        std::filesystem::rename(tmp_, file_, error);
-        if (error) throw OutputError(file_, error.value());
-        detail::sync_directory(file_);
+        const SoFar even = so_far_;
+        if (!scene.stopped() && so_far_.written != scene.steps()) write(scene);
+        so_far_ = even; // a run that goes on would not have had the row of the end
+        by_one(party_of(scene), [&] {
+            out_.close();
+            if (!out_) throw OutputError(file_, errno);
+            std::error_code error;
+            std::filesystem::rename(tmp_, file_, error);
+            if (error) throw OutputError(file_, error.value());
+            detail::sync_directory(file_);
+        });
     }
     std::filesystem::path const& file() const { return file_; }
+    /// What a restart needs: f(name, number).
+    void notes(auto const& f)
+    {
+        every_.notes("history", f);
+        f("history_since", so_far_.since), f("history_at", so_far_.at), f("history_start", so_far_.start);
+        f("history_moment", so_far_.moment);
+        f("history_written", so_far_.written);
+        for (std::size_t c = 0; c < so_far_.wall.size(); ++c) {
+            const std::string axis = std::to_string(c);
+            f("history_wall_force_" + axis, so_far_.wall[c][0]), f("history_wall_impulse_" + axis, so_far_.wall[c][1]);
+        }
+    }
 
 private:
+    /// What the next row depends on.
+    struct SoFar {
+        double since = 0, at = 0;                    ///< times of the first and the last row [s]
+        std::array<std::array<double, 2>, 3> wall{}; ///< by axis: force of the walls at the last row [N], impulse [N s]
+        double start = 0;          ///< total energy of the first row, less what had come in before [J]
+        double moment = 0;         ///< of mass that had entered before the first row [kg s]
+        std::int64_t written = -1; ///< step of the last row
+    };
+    /// The rows of this run up to the last one of which so_far_ knows, if they are there; else none.
+    [[gnu::cold]] void keep_rows(std::string const& head) const
+    {
+        std::ifstream in(std::filesystem::exists(tmp_) ? tmp_ : file_);
+        std::string row, kept = head + "\n";
+        if (std::getline(in, row) && row == head)
+            while (std::getline(in, row) && !in.eof()) { // a row that was cut off has no end
+                std::int64_t step = -1;
+                std::from_chars(row.data(), row.data() + row.size(), step);
+                if (step < 0 || step > so_far_.written) break;
+                kept += row + "\n";
+            }
+        in.close();
+        detail::replace_file(tmp_, kept);
+    }
     template <class Scene>
     static constexpr bool has_density =
         std::remove_cvref_t<decltype(std::declval<Scene&>().particles())>::template has<Density>;
@@ -136,11 +181,11 @@ private:
         auto impulse = scene.wall_force(); // on the walls
         for (int c = 0; c < Scene::dim; ++c) {
             const double now = -impulse[c];
-            auto& [before, sum] = wall_[std::size_t(c)];
-            if (written_ >= 0) sum += 0.5 * (before + now) * (scene.time() - at_);
+            auto& [before, sum] = so_far_.wall[std::size_t(c)];
+            if (so_far_.written >= 0) sum += 0.5 * (before + now) * (scene.time() - so_far_.at);
             before = now, impulse[c] = sum;
         }
-        at_ = scene.time();
+        so_far_.at = scene.time();
         return impulse;
     }
     template <class Scene>
@@ -161,6 +206,8 @@ private:
         for (auto* name : {"step", "t", "dt", "dt_criterion", "kinetic", "potential"}) add(name);
         add(has_density<Scene> ? "compressive" : "elastic");
         add(scene.driven() ? "dissipated_less_work" : "dissipated"); // the work of walls and forces is not known apart
+        if constexpr (Scene::writes_energy)
+            add("reinitialised"); // what re-initialisation gave: part of what is not dissipated
         for (auto const& name : detail::headings("momentum", scene.momentum())) add(name);
         if constexpr (has_density<Scene>) add("volume");
         for (auto const& name : detail::headings("gravity_impulse", scene.momentum())) add(name);
@@ -192,9 +239,9 @@ private:
         scene.refresh();
         const auto e = scene.energy();
         const auto came = scene.exchanged(); // with particles that entered and left
-        if (written_ < 0) {
-            start_ = e.total() - came.energy(), since_ = scene.time();
-            moment_ = came.moment - came.mass() * since_;
+        if (so_far_.written < 0) {
+            so_far_.start = e.total() - came.energy(), so_far_.since = scene.time();
+            so_far_.moment = came.moment - came.mass() * so_far_.since;
         }
         const auto extremes = scene.system().extremes();
         detail::Row row;
@@ -202,18 +249,20 @@ private:
         row.add(scene.time());
         row.add(scene.dt());
         row.add(scene.criterion());
-        for (double part : {e.kinetic, e.potential, e.internal, start_ - (e.total() - came.energy())}) row.add(part);
+        for (double part : {e.kinetic, e.potential, e.internal, so_far_.start - (e.total() - came.energy())})
+            row.add(part);
+        if constexpr (Scene::writes_energy) row.add(scene.written_energy());
         row.add(scene.momentum());
         if constexpr (has_density<Scene>) row.add(scene.volume());
-        const double changed =
-            came.moment - came.mass() * since_ - moment_; // 0 where the mass has always been the same
-        row.add((scene.total_mass() * (scene.time() - since_) - changed) * scene.gravity());
+        const double changed = // 0 where the mass has always been the same
+            came.moment - came.mass() * so_far_.since - so_far_.moment;
+        row.add((scene.total_mass() * (scene.time() - so_far_.since) - changed) * scene.gravity());
         if constexpr (has_markers<Scene>) row.add(wall_impulse(scene));
         row.add(extremes.speed);
         if constexpr (has_density<Scene>) row.add(extremes.least_density), row.add(extremes.most_density);
         each_column([&](auto const& c) { row.add(c(scene)); });
-        line(row.text());
-        written_ = scene.steps();
+        by_one(party_of(scene), [&] { line(row.text()); });
+        so_far_.written = scene.steps();
     }
     [[gnu::cold]] void line(std::string const& text)
     {
@@ -225,11 +274,7 @@ private:
     detail::Every every_;
     std::tuple<Column...> columns_;
     std::ofstream out_;
-    double since_ = 0, at_ = 0;                   ///< times of the first and the last row [s]
-    std::array<std::array<double, 2>, 3> wall_{}; ///< by axis: force of the walls at the last row [N], impulse [N s]
-    double start_ = 0;                            ///< total energy of the first row, less what had come in before [J]
-    double moment_ = 0;                           ///< of mass that had entered before the first row [kg s]
-    std::int64_t written_ = -1;                   ///< step of the last row
+    SoFar so_far_;
 };
 
 } // namespace spate::io

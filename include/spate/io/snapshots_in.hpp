@@ -15,6 +15,7 @@
 
 #include "spate/core/errors.hpp"
 #include "spate/core/fields.hpp"
+#include "spate/core/together.hpp"
 #include "spate/io/cloud.hpp"
 #include "spate/io/detail/every.hpp"
 
@@ -57,9 +58,33 @@ template <class Particles, class F>
     }
 }
 
+/// Of all ranks, on rank 0; in the order of species and ids, as on one rank.
+[[gnu::cold]] inline void gather(Cloud& cloud, auto const& ranks)
+{
+    cloud.id = gathered(ranks, std::move(cloud.id));
+    cloud.species = gathered(ranks, std::move(cloud.species));
+    std::vector<std::size_t> order(cloud.id.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return std::pair(cloud.species[a], cloud.id[a]) < std::pair(cloud.species[b], cloud.id[b]);
+    });
+    auto sort = [&](auto& values, std::size_t components) {
+        const auto old = values;
+        for (std::size_t k = 0; k < order.size(); ++k)
+            for (std::size_t c = 0; c < components; ++c) values[k * components + c] = old[order[k] * components + c];
+    };
+    cloud.points = gathered(ranks, std::move(cloud.points));
+    sort(cloud.points, 3);
+    for (Column& column : cloud.columns) {
+        column.values = gathered(ranks, std::move(column.values));
+        sort(column.values, std::size_t(column.components));
+    }
+    sort(cloud.id, 1), sort(cloud.species, 1);
+}
+
 } // namespace detail
 
-/// All particles of a scene, with the fields that its mobile particles show.
+/// All particles of a scene, with the fields that its mobile particles show; of many ranks they are on rank 0.
 template <class Scene>
 [[gnu::cold]] Cloud cloud_of(Scene const& scene)
 {
@@ -83,26 +108,41 @@ template <class Scene>
             for_each(fields, [&](auto f) { detail::append(cloud.columns[k++], p, i, f); });
         }
     });
+    if constexpr (!decltype(party_of(scene))::alone) detail::gather(cloud, party_of(scene));
     return cloud;
 }
 
-/// An output of Simulation::run. A series has write(cloud), which returns the file, and times() of what it has written.
+/// An output of Simulation::run. A series has write(cloud), which returns the file, times() of what it has
+/// written, and go_on_from(times): the next one follows these.
 template <class Series>
 class SnapshotsIn {
 public:
     /// \param every  interval between two snapshots [s]; 0: the last state only
-    SnapshotsIn(Series series, double every) : series_(std::move(series)), interval_(every), every_(every)
+    SnapshotsIn(Series series, double every)
+        : series_(std::move(series)), interval_(every), every_(every), even_times_(series_.times())
     {
         require_non_negative("Snapshots.every", every, "s");
     }
-    void begin(auto& scene) { step(scene); }
+    void begin(auto& scene)
+    {
+        series_.go_on_from(even_times_), written_ = even_written_;
+        step(scene);
+    }
     void step(auto& scene)
     {
-        if (interval_ > 0 && every_.due(scene.time())) write(scene);
+        if (interval_ <= 0 || !every_.due(scene.time())) return;
+        write(scene);
+        even_written_ = written_, even_times_ = series_.times();
     }
     void end(auto& scene)
     {
         if (written_ != scene.steps()) write(scene);
+    }
+    /// What a restart needs: f(name, numbers).
+    void notes(auto const& f)
+    {
+        every_.notes("snapshots", f);
+        f("snapshots_written", even_written_), f("snapshots_times", even_times_);
     }
     std::filesystem::path const& last() const { return last_; }
     std::size_t count() const { return series_.times().size(); }
@@ -111,7 +151,8 @@ private:
     [[gnu::cold]] void write(auto& scene) // seldom: small and quick to compile
     {
         scene.refresh();
-        last_ = series_.write(cloud_of(scene));
+        const Cloud cloud = cloud_of(scene);
+        by_one(party_of(scene), [&] { last_ = series_.write(cloud); });
         written_ = scene.steps();
     }
 
@@ -119,7 +160,8 @@ private:
     double interval_; ///< [s]
     detail::Every every_;
     std::filesystem::path last_;
-    std::int64_t written_ = -1; ///< step of the last one
+    std::int64_t written_ = -1, even_written_ = -1; ///< step of the last one; of the last but that of the end
+    std::vector<double> even_times_; ///< of all but that of the end, which a run that goes on writes over
 };
 
 } // namespace spate::io

@@ -136,6 +136,8 @@ public:
 
     /// Of the snapshots written so far [s].
     std::vector<double> const& times() const { return times_; }
+    /// The next snapshot follows those of these times; what comes after them is written over.
+    void go_on_from(std::vector<double> times) { times_ = std::move(times); }
 
 private:
     std::string file_name(std::size_t number) const

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "spate/core/field.hpp"
+#include "spate/core/ranks.hpp"
 #include "spate/measure/nearest_image.hpp"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ struct Gauge {
             x[Dim - 1] = 0;
             if (x.squaredNorm() <= h * h) height = std::max(height, above);
         }
-        return height;
+        return party_of(scene).all(height, agree::Most{});
     }
 };
 template <int Dim>

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "spate/core/field.hpp"
+#include "spate/core/ranks.hpp"
 
 #include <string>
 
@@ -26,7 +27,7 @@ struct Leaks {
             if constexpr (requires { boundary.passed(x); }) n += boundary.passed(x);
             else n += boundary.template beyond<dim>(x) > spacing / 2;
         }
-        return double(n);
+        return double(party_of(scene).all(n, agree::Sum{}));
     }
 };
 

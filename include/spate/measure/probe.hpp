@@ -4,8 +4,11 @@
 #pragma once
 
 #include "spate/core/fields.hpp"
+#include "spate/core/ranks.hpp"
+#include "spate/core/reduction.hpp"
 #include "spate/measure/nearest_image.hpp"
 
+#include <array>
 #include <limits>
 #include <string>
 
@@ -26,16 +29,25 @@ struct Probe {
         auto const& interaction = scene.physics().interaction;
         auto const& kernel = interaction.kernel;
         const double reach2 = interaction.range() * interaction.range();
-        double weight = 0;
-        auto sum = all(0);
+        std::array<ExactSum, std::size_t(1 + components<F, Dim>)> sums; // weights, and each component
         for (std::size_t i = 0; i < p.size(); ++i) {
             const double r2 = nearest_image(at - p.at(position, i), scene.system().grid()).squaredNorm();
             if (!(r2 < reach2)) continue;
             const double w = p.at(mass, i) / p.at(density, i) * kernel.f(std::sqrt(r2) / kernel.h);
-            weight += w;
-            sum += w * p.at(field, i);
+            const auto value = w * p.at(field, i);
+            sums[0].add(w);
+            if constexpr (F::rank == 0) sums[1].add(value);
+            else
+                for (int c = 0; c < Dim; ++c) sums[std::size_t(1 + c)].add(value[c]);
         }
-        return weight > 0 ? (1 / weight) * sum : all(std::numeric_limits<double>::quiet_NaN());
+        party_of(scene).each(sums, agree::Sum{});
+        const double weight = sums[0].value();
+        if (!(weight > 0)) return all(std::numeric_limits<double>::quiet_NaN());
+        auto mean = all(0);
+        if constexpr (F::rank == 0) mean = sums[1].value() / weight;
+        else
+            for (int c = 0; c < Dim; ++c) mean[c] = sums[std::size_t(1 + c)].value() / weight;
+        return mean;
     }
 
 private:

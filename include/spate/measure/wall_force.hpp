@@ -4,6 +4,7 @@
 #pragma once
 
 #include "spate/core/fields.hpp"
+#include "spate/core/ranks.hpp"
 #include "spate/core/reduction.hpp"
 
 #include <array>
@@ -34,6 +35,7 @@ struct WallForce {
         else
             scene.system().template partial_sums<1>(
                 [&](std::size_t i, auto const& p) { push(p.at(mass, i), p.at(acceleration, i)); });
+        party_of(scene).each(sum, agree::Sum{});
         Vec<dim, double> force;
         for (int c = 0; c < dim; ++c) force[c] = sum[std::size_t(c)].value();
         return force;

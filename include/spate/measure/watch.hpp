@@ -5,25 +5,30 @@
 
 #include "spate/core/errors.hpp"
 #include "spate/measure/energy.hpp"
+#include "spate/measure/listed_pairs.hpp"
+#include "spate/measure/origin.hpp"
 
 #include <algorithm>
 #include <limits>
 
 namespace spate {
 
-/// Looks at every step for values that are not finite, at each rebuild for particles that left the domain, and now and
-/// then at the total energy.
+/// Looks at every step for values that are not finite, densities that the equation of state does not know and grains that
+/// outrun their contacts, at each rebuild for particles that left the domain, now and then at the total energy, and once, at
+/// the start, for pairs that are too near.
 struct Watch {
     static constexpr bool on = true;
     int energy_every = 10; ///< steps between two looks at the energy
     double warn = 0.01;    ///< rise of total energy over its reference that is told [-]
     double stop = 0.05;    ///< ... that ends the run [-]
+    double overlap = 0.2;  ///< of two grains at the start, over the smaller radius, that is let pass [-]
 
     [[gnu::cold]] void check() const
     {
         require(energy_every >= 1, "Watch.energy_every", energy_every, "1 or above [steps]");
         require(warn > 0, "Watch.warn", warn, "a number above 0 [-]");
         require(stop > 0, "Watch.stop", stop, "a number above 0 [-]");
+        require(overlap >= 0, "Watch.overlap", overlap, "a number, 0 or above [-]");
     }
 };
 struct NoWatch {
@@ -78,9 +83,11 @@ template <class P>
 }
 } // namespace detail
 
-/// Throws NonFinite for the first particle with a value that is not finite; nothing if there is none.
+/// Throws NonFinite (CoincidentParticles where that is why) for the first particle with a value that is not finite; nothing
+/// if there is none.
+/// \param origin  asked for the Origin of the value
 template <class P>
-[[gnu::cold]] void stop_if_not_finite(P const& p, std::int64_t step, double time)
+[[gnu::cold]] void stop_if_not_finite(P const& p, std::int64_t step, double time, auto const& origin)
 {
     const std::size_t i =
         detail::first_by_id(p, [&](std::size_t k) { return !detail::not_finite(p, k).first.empty(); });
@@ -89,7 +96,67 @@ template <class P>
     f.step = step, f.time = time;
     std::tie(f.quantity, f.value) = detail::not_finite(p, i);
     f.limit = std::numeric_limits<double>::max();
+    const Origin from = origin();
+    f.term = from.term, f.other = from.other;
+    if (from.at_one_place) throw CoincidentParticles(f);
     throw NonFinite(f);
+}
+/// Throws EosDomain for the first particle whose density is not above 0 or is above `most` [kg/m^3].
+template <class P>
+[[noreturn, gnu::cold]] void stop_of_density(P const& p, double most, std::int64_t step, double time)
+{
+    const std::size_t i =
+        detail::first_by_id(p, [&](std::size_t k) { return !(p.at(density, k) > 0) || p.at(density, k) > most; });
+    StopFacts f = detail::facts_of(p, i);
+    f.step = step, f.time = time;
+    f.quantity = "density [kg/m^3]", f.value = p.at(density, i);
+    f.limit = f.value > most ? most : 0;
+    throw EosDomain(f);
+}
+/// The pairs of a start: two grains at one place or deep in each other are a stop, two smoothed particles at one place
+/// a warning, since nothing will part them.
+/// \param overlap  the deepest that is let pass, over the smaller radius
+template <class S>
+[[gnu::cold]] void look_at_pairs(S const& system, double overlap, std::int64_t step, double time,
+                                 std::vector<std::string>& warnings)
+{
+    using Q = std::remove_cvref_t<decltype(system.mobile())>;
+    auto const& p = system.mobile();
+    constexpr bool grains = (Q::fields | Q::uniform).template contains<Radius>;
+    std::size_t worst_i = p.size(), worst_j = 0;
+    double worst = overlap;
+    bool one_place = false;
+    each_listed_pair(system, [&](std::size_t i, std::size_t j, auto const& x) {
+        const double r2 = x.squaredNorm();
+        double depth = r2 == 0 ? std::numeric_limits<double>::infinity() : 0;
+        if constexpr (grains)
+            if (r2 > 0) {
+                const double a = p.at(radius, i), b = p.at(radius, j);
+                depth = (a + b - std::sqrt(r2)) / std::min(a, b);
+            }
+        const bool first = p.id()[i] < p.id()[j] && (worst_i == p.size() || p.id()[i] < p.id()[worst_i]);
+        if (depth > worst || (depth == worst && depth > overlap && first)) {
+            worst = depth, worst_i = i, worst_j = j;
+            one_place = r2 == 0;
+        }
+    });
+    if (worst_i == p.size()) return;
+    if (p.id()[worst_j] < p.id()[worst_i]) std::swap(worst_i, worst_j);
+    StopFacts f = detail::facts_of(p, worst_i);
+    f.step = step, f.time = time, f.other = p.id()[worst_j];
+    if constexpr (grains) {
+        f.quantity = "the overlap of two grains at the start, over the smaller radius";
+        f.value = worst, f.limit = overlap;
+        if (!one_place)
+            throw OverlapTooDeep(
+                f, "move them apart, or let it pass with Watch{.overlap = ...}: the energy that is stored "
+                   "there sets them free like a shot");
+        f.quantity = "the distance of two grains [m]", f.value = f.limit = 0;
+        throw CoincidentParticles(f);
+    }
+    else
+        warnings.push_back("particles " + std::to_string(f.particle) + " and " + std::to_string(f.other) +
+                           " are at one place, where no force parts them");
 }
 /// Throws OutOfDomain for the first particle that is further beyond a wall face than the wall is thick.
 template <class P, class B>

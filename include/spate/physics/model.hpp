@@ -226,6 +226,17 @@ public:
         if constexpr (s == 1 && !moves) return spate::evolving(stored<s>()) - Fields{position};
         else return spate::evolving(stored<s>());
     }
+    /// What a checkpoint holds of species s: all but what each evaluation makes anew before it is read. Rates of kicks and
+    /// of positions last: the next step and its lists are chosen by those of the one before, and Leapfrog begins with them.
+    template <int s>
+    static constexpr auto lasting()
+    {
+        constexpr auto rates = []<class... F>(Fields<F...>) {
+            return (Fields<>{} | ... | rate_in<F>(stored<s>()));
+        }(spate::of_kind<Kind::kick>(evolving<s>()) | (evolving<s>() & Fields{position}));
+        constexpr Mask anew = made<s> & ~mask(detail::only_given(stored<s>()) | rates | given_by_boundary);
+        return fields<mask(stored<s>()) & ~anew>();
+    }
     /// What a record of species s as a source holds.
     template <int s>
     static constexpr auto record()

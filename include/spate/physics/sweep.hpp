@@ -140,12 +140,50 @@ private:
         (one(F{}), ...);
     }
 };
+/// A position in two parts: near ones differ exactly by their heads, and then by their tails.
+template <class X>
+struct Split {
+    X const &head, &tail;
+    [[gnu::always_inline]] friend X operator-(Split const& a, Split const& b)
+    {
+        return (a.head - b.head) + (a.tail - b.tail);
+    }
+};
+/// One particle as the interaction sees it, with a position in two parts.
+template <class S, class R, class U>
+struct SplitView {
+    View<S, Fields<>, R, U, void> whole;
+    template <Field F>
+    [[gnu::always_inline]] decltype(auto) operator[](F f) const
+    {
+        if constexpr (std::same_as<F, Position>) {
+            using X = std::remove_cvref_t<decltype(whole.record[position])>;
+            return Split<X>{whole.record[position], whole.record[position_tail]};
+        }
+        else return whole[f];
+    }
+};
 template <class I, class V, class Ri, class Ui, class Rj, class Uj>
 [[gnu::always_inline]] inline auto pair_of(I const& interaction, Ri const& ri, Ui const& ui, Rj const& rj, Uj const& uj)
 {
     using S = std::remove_cv_t<decltype(I::reads)>;
-    return interaction.template pair<V>(View<S, Fields<>, Ri, Ui, void>{ri, ui, nullptr, {}},
-                                        View<S, Fields<>, Rj, Uj, void>{rj, uj, nullptr, {}});
+    if constexpr (Ri::template has<PositionTail>)
+        return interaction.template pair<V>(SplitView<S, Ri, Ui>{{ri, ui, nullptr, {}}},
+                                            SplitView<S, Rj, Uj>{{rj, uj, nullptr, {}}});
+    else
+        return interaction.template pair<V>(View<S, Fields<>, Ri, Ui, void>{ri, ui, nullptr, {}},
+                                            View<S, Fields<>, Rj, Uj, void>{rj, uj, nullptr, {}});
+}
+/// Whether an interaction that tells touching pairs apart, touch(i, j), finds any among W.
+template <class I, class Ri, class Ui, class Rj, class Uj>
+[[gnu::always_inline]] inline bool may_meet(I const& interaction, Ri const& ri, Ui const& ui, Rj const& rj,
+                                            Uj const& uj)
+{
+    using S = std::remove_cv_t<decltype(I::reads)>;
+    const View<S, Fields<>, Ri, Ui, void> i{ri, ui, nullptr, {}};
+    const View<S, Fields<>, Rj, Uj, void> j{rj, uj, nullptr, {}};
+    if constexpr (requires { interaction.touch(i, j); }) return spate::any(interaction.touch(i, j));
+    else return true;
 }
 /// The neighbours of one block of targets in one source.
 template <class V, class I, class Tuple, class Ri, class Ui, class A, class Src>
@@ -165,6 +203,8 @@ template <class V, class I, class Tuple, class Ri, class Ui, class A, class Src>
     for (auto at = std::size_t(lists.begin[block]) * std::size_t(width<V>); at != end; at += std::size_t(width<V>)) {
         __builtin_prefetch(base + std::uint32_t(index[std::min(at + ahead, last)]));
         const auto rj = gathered<V>(base, index + at, L{});
+        if constexpr (Src::Kept::size == 0)
+            if (!may_meet<I>(interaction, ri, ui, rj, uj)) continue;
         const auto ij = pair_of<I, V>(interaction, ri, ui, rj, uj);
         constexpr auto terms = std::make_index_sequence<std::tuple_size_v<Tuple>>{};
         if constexpr (Src::Kept::size > 0) {
@@ -214,10 +254,18 @@ template <Mask terms, class V, class I, class Ri, class Ui, class A, class... T,
 }
 } // namespace detail
 
+/// Whether an interaction asks for lists whose targets stay in order: they are short.
+template <class I>
+inline constexpr bool short_lists = requires
+{
+    requires I::neighbours.window == 1;
+};
+
 /// Runs the picked terms on all targets of one cell: the unit of work. Flattened: terms are inlined however large the
 /// program; a call in the loop would send its sums through memory.
 /// \tparam Sums     the fields that the terms add to
 /// \tparam Target   the fields that they read of the target
+/// \tparam V        what pairs compute with
 template <class V, Mask terms, class Sums, class Target, class I, class Tuple, class P, class... Src>
 [[gnu::flatten]] void sweep_cell(I const& of_scene, Tuple const& terms_of_scene, P& particles,
                                  Binning<P::dim> const& at, std::size_t cell, Src const&... source)
@@ -229,22 +277,36 @@ template <class V, Mask terms, class Sums, class Target, class I, class Tuple, c
     auto const& lists = std::get<0>(std::tie(source...)).lists.of_cell(cell);
     const std::size_t blocks = lists.begin.size() - 1;
     const int targets = at.end(cell) - first;
-    for (std::size_t block = 0; block < blocks; ++block) {
-        std::int32_t const* target = lists.target.data() + block * std::size_t(width<V>);
-        const auto ri = lists.in_order ? particles.template record_at<V>(Target{}, first + target[0])
-                                       : particles.template record_of<V>(Target{}, first, target);
-        Record<P::dim, V, Sums> sums;
-        clear(sums);
-        (detail::over<V>(interaction, all, ri, ui, sums, source, cell, block), ...);
-        detail::with_itself<terms, V>(interaction, all, ri, ui, sums,
-                                      std::make_index_sequence<std::tuple_size_v<Tuple>>{});
-        const int lanes = std::min(targets - int(block) * width<V>, width<V>);
-        for_each(
-            Sums{}, [&](auto f) __attribute__((always_inline)) {
-                if (lists.in_order) particles.template store_at<V>(f, std::size_t(first + target[0]), sums[f], lanes);
-                else particles.template store_of<V>(f, first, target, sums[f], lanes);
-            });
+    auto run = [&]<bool in_order>(std::bool_constant<in_order>) __attribute__((always_inline))
+    {
+        for (std::size_t block = 0; block < blocks; ++block) {
+            std::int32_t const* target = lists.target.data() + block * std::size_t(width<V>);
+            const std::int32_t at_first = first + (in_order ? std::int32_t(block) * width<V> : 0);
+            const auto ri = [&]() __attribute__((always_inline))
+            {
+                if constexpr (in_order) return particles.template record_at<V>(Target{}, at_first);
+                else return particles.template record_of<V>(Target{}, first, target);
+            }
+            ();
+            Record<P::dim, V, Sums> sums;
+            clear(sums);
+            (detail::over<V>(interaction, all, ri, ui, sums, source, cell, block), ...);
+            detail::with_itself<terms, V>(interaction, all, ri, ui, sums,
+                                          std::make_index_sequence<std::tuple_size_v<Tuple>>{});
+            const int lanes = std::min(targets - int(block) * width<V>, width<V>);
+            for_each(
+                Sums{}, [&](auto f) __attribute__((always_inline)) {
+                    if constexpr (!in_order) particles.template store_of<V>(f, first, target, sums[f], lanes);
+                    else if (lanes == width<V>) particles.template store_at<V>(f, std::size_t(at_first), sums[f]);
+                    else particles.template store_at<V>(f, std::size_t(at_first), sums[f], lanes);
+                });
+        }
+    };
+    // One loop for each, where lists may be short: then what a block costs beside its pairs counts.
+    if constexpr (short_lists<I>) {
+        if (lists.in_order) return run(std::true_type{});
     }
+    run(std::false_type{});
 }
 
 } // namespace spate

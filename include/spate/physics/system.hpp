@@ -6,7 +6,10 @@
 
 #include "spate/cells/pair_memory.hpp"
 #include "spate/core/precision.hpp"
+#include "spate/core/ranks.hpp"
 #include "spate/core/reduction.hpp"
+#include "spate/core/together.hpp"
+#include "spate/physics/decomposition.hpp"
 #include "spate/physics/extremes.hpp"
 #include "spate/physics/model.hpp"
 #include "spate/physics/sweep.hpp"
@@ -15,6 +18,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <set>
 
 namespace spate {
 
@@ -24,6 +28,9 @@ public:
     using M = Model<P, B>;
     using T = typename Precision::real;
     using V = typename Precision::value;
+    using PairV = pair_value<Precision>;
+    using PairT = scalar_t<PairV>;
+    static constexpr bool mixed = !std::same_as<PairT, T>;
     static constexpr int dim = M::dim;
     static constexpr int species_count = M::species;
     static constexpr std::size_t task = 2048; ///< particles in a task of a pass; a multiple of every pack
@@ -35,20 +42,32 @@ public:
     static constexpr bool any_pairs =
         M::planner.meet(0, 0) || (species_count == 2 && (M::planner.meet(0, 1) || M::planner.meet(1, 0)));
 
+    /// A record in pairs that compute in less than the state has holds positions in two parts.
+    static constexpr auto in_pairs(auto set)
+    {
+        if constexpr (mixed) return set | Fields{position_tail};
+        else return set;
+    }
     template <int s>
     using ParticlesOf = Particles<dim, T, Set<M::template stored<s>()>, Set<M::template uniform<s>()>>;
     template <int s>
     struct Species {
         ParticlesOf<s> particles;
         Binning<dim> bins;
-        Packed<dim, T, Set<M::template record<s>()>> packed;
+        Packed<dim, PairT, Set<in_pairs(M::template record<s>())>> packed;
         Particles<dim, T, Set<M::template evolving<s>()>, Fields<>> start; ///< of the step, for integrators that save
     };
 
-    /// \param saves  whether the integrator needs the start of the step
+    /// Those who share the scene: the backend's ranks, or nobody.
+    using Party = decltype(ranks_of(std::declval<Workers const&>()));
+    static constexpr bool alone = Party::alone;
+    using Parts = std::conditional_t<alone, Undivided, Decomposition<dim, T, PairT, species_count, Party>>;
+
+    /// \param saves  whether anyone needs the start of a step: an integrator, or the watch
     System(P physics, B boundary, Workers backend, Neighbours neighbours, bool saves)
         : physics_(std::move(physics)), boundary_(std::move(boundary)), backend_(backend), neighbours_(neighbours),
-          saves_(saves), grid_({}, Edges<dim>(Edge::open), 1, 1, 1), terms_(M::terms_of(physics_, boundary_))
+          saves_(saves), grid_({}, Edges<dim>(Edge::open), 1, 1, 1), terms_(M::terms_of(physics_, boundary_)),
+          parts_(ranks_of(backend_))
     {
         for_each(P::uniform, [&](auto f) { mobile().value(f) = physics_.uniforms[f]; });
     }
@@ -72,12 +91,31 @@ public:
         [&]<int... s>(std::integer_sequence<int, s...>) { (f(std::integral_constant<int, s>{}), ...); }
         (std::make_integer_sequence<int, species_count>{});
     }
+    /// Particles on all ranks.
     [[nodiscard]] std::size_t total() const
     {
         std::size_t n = 0;
-        each_species([&](auto s) { n += species<s()>().particles.size(); });
-        return n;
+        each_species([&](auto s) { n += counted<s()>(); });
+        return ranks().all(n, agree::Sum{});
     }
+    template <int s>
+    [[nodiscard]] std::size_t total_of() const
+    {
+        return ranks().all(counted<s>(), agree::Sum{});
+    }
+    /// Of the particles here those that this rank counts where all ranks count: the first so many.
+    template <int s>
+    [[nodiscard]] std::size_t counted() const
+    {
+        const std::size_t n = species<s>().particles.size();
+        if constexpr (alone) return n;
+        else return parts_.counted(s, n);
+    }
+    /// The ranks that share the scene.
+    [[nodiscard]] decltype(auto) ranks() const { return parts_.ranks(); }
+    /// How it is cut.
+    Parts const& parts() const { return parts_; }
+
     P const& physics() const { return physics_; }
     /// What the physics left open is known now: before the first evaluation.
     void complete(P physics)
@@ -111,36 +149,49 @@ public:
     void rebuild(bool wide = false)
     {
         wrap();
-        set_aside();
-        each_species([&](auto s) {
-            auto& x = species<s()>();
-            if (s() != 0 && sorted_markers_ && !M::moves) return;
-            x.bins.sort(x.particles, grid_);
-            if constexpr (ParticlesOf<s()>::template has<BuildPosition>)
-                for (int c = 0; c < dim; ++c)
-                    x.particles.column(build_position)[std::size_t(c)] = x.particles.column(position)[std::size_t(c)];
+        if constexpr (!alone) {
+            each_species([&](auto s) { remember_places<s()>(); });
+            if (have_lists_ && balance_due()) cut_by_cost();
+        }
+        set_aside(); // sorting may stop: the lists would be of another order
+        if constexpr (!alone) go_home(true);
+        together(ranks(), [&] {
+            each_species([&](auto s) {
+                auto& x = species<s()>();
+                if (s() != 0 && sorted_markers_ && !M::moves) return;
+                x.bins.sort(x.particles, grid_);
+                remember_places<s()>();
+            });
         });
         sorted_markers_ = true;
+        if constexpr (!alone) meet_others();
         choose_skins(wide);
-        const double range = physics_.interaction.range(), beyond = neighbours_.skin - neighbours_.closed_in();
-        each_species([&](auto s) {
-            auto build = [&](auto... sources) {
-                const std::array<typename Lists<dim>::template From<T>, sizeof...(sources)> from{sources...};
-                Lists<dim>::build(places<s()>(), species<s()>().bins, grid_, width<V>, neighbours_.window, range,
-                                  skins_.of(s()), beyond, backend_, from);
-            };
-            constexpr bool meets_0 = M::planner.meet(s(), 0), meets_1 = species_count == 2 && M::planner.meet(s(), 1);
-            if constexpr (meets_0 && meets_1) build(from<s(), 0>(), from<s(), 1>());
-            else if constexpr (meets_0) build(from<s(), 0>());
-            else if constexpr (meets_1) build(from<s(), 1>());
-        });
-        each_memory([&](auto s, auto q, auto& aside, auto& memory) {
-            aside.give(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
-                       species<q()>().particles, species<q()>().bins, width<V>, backend_);
-            aside.clear(); // it would be old news to lists to come
-        });
-        have_lists_ = true;
+        together(ranks(), [&] { build_lists(); });
         ++rebuilds_;
+    }
+    /// Gives cells to other ranks by new cuts; lists, their skins, and when they are built anew stay as they are.
+    void redistribute(Shares<dim> shares)
+    {
+        set_aside();
+        parts_.use(std::move(shares));
+        std::array<std::vector<double>, std::size_t(species_count)> skin, of_patch;
+        each_species([&](auto s) { skin[std::size_t(s())] = skins_by_particle<s()>(); });
+        go_home(true, &skin);
+        each_species([&](auto s) {
+            auto& x = species<s()>();
+            const auto patch = patches<s()>();
+            x.bins.sort(x.particles, grid_, built<s()>);
+            if (skins_.uniform()) return;
+            auto& mine = of_patch[std::size_t(s())];
+            mine.assign(x.bins.cells() * Skins<dim>::patches_of_cell(grid_), neighbours_.closed_in());
+            for (std::size_t i = 0; i < patch.size(); ++i)
+                mine[number_of_patch(patch[i], x.bins, grid_)] = skin[std::size_t(s())][i];
+        });
+        if (!skins_.uniform()) skins_.use(neighbours_.closed_in(), std::move(of_patch), ranks());
+        sorted_markers_ = true;
+        meet_others();
+        if (neighbours_.local && any_pairs) look_around();
+        build_lists();
     }
     /// Takes what terms keep of pairs out of lists that are about to go; to call before particles come, go or change places.
     void set_aside()
@@ -148,7 +199,7 @@ public:
         if (!have_lists_ || !lists_know_all()) return;
         each_memory([&](auto s, auto q, auto& aside, auto& memory) {
             aside.take(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
-                       species<q()>().particles, species<q()>().bins, width<V>, backend_);
+                       species<q()>().particles, species<q()>().bins, width<PairV>, backend_, foreign<q()>());
         });
         have_lists_ = false;
     }
@@ -173,9 +224,10 @@ public:
     {
         if (!any_pairs || !have_lists_) return !have_lists_;
         const double range = physics_.interaction.range(), most = closing(e, t, t2);
+        if (!(e.moved <= wrap_after_)) return true; // together, perhaps, but far from where it is wrapped to
         if (most <= skins_.least() * range) return false;
         if (!neighbours_.local || !std::isfinite(most)) return true;
-        return outrun(t, 2 * t2 * e.acceleration);
+        return ranks().all(outrun(t, 2 * t2 * e.acceleration), agree::Or{});
     }
     /// The most by which a pair may have closed in at positions up to x + v t + a t2 [m].
     [[nodiscard]] double closing(Extremes const& e, double t, double t2) const
@@ -203,15 +255,84 @@ public:
     void keep_kick_rates() { kick_rates_ = true; }
     void forget_kick_rates() { kick_rates_ = false; }
     [[nodiscard]] std::int64_t rebuilds() const { return rebuilds_; }
-    /// Directed pairs within range when the lists were built.
-    [[nodiscard]] std::int64_t pairs() const
-    {
-        std::int64_t n = 0;
-        for (auto const& l : lists_) n += l.pairs();
-        return n;
-    }
+    /// Directed pairs within range when the lists were built, on all ranks.
+    [[nodiscard]] std::int64_t pairs() const { return ranks().all(pairs_here(), agree::Sum{}); }
     [[nodiscard]] std::int64_t evaluations() const { return evaluations_; }
-    [[nodiscard]] std::int64_t pairs_evaluated() const { return pairs_evaluated_; }
+    [[nodiscard]] std::int64_t pairs_evaluated() const { return ranks().all(pairs_evaluated_, agree::Sum{}); }
+
+    // ---- going on from a checkpoint
+    /// f(name, number) for what has been counted, and for what is known of the lists.
+    template <class Self>
+    static void numbers_of(Self& self, auto const& f)
+    {
+        f("have_lists", self.have_lists_), f("kick_rates_current", self.kick_rates_);
+        f("rebuilds", self.rebuilds_), f("evaluations", self.evaluations_);
+        f("pairs_evaluated", self.pairs_evaluated_), f("memory_age", self.due_);
+    }
+    /// The place of the patch that holds x.
+    static Index<dim> place(Vec<dim, double> const& x, Grid<dim> const& grid) { return Skins<dim>::place(x, grid); }
+    /// f(s, place of a patch, its skin) for each patch that holds particles, where skins differ by place.
+    void each_skin(auto const& f) const
+    {
+        each_species([&](auto s) {
+            auto const& skins = skins_.of(s());
+            auto const& bins = species<s()>().bins;
+            if (skins.uniform()) return;
+            for (std::size_t p = 0; p < skins.patches(); ++p)
+                if (!Skins<dim>::particles_of(bins, p, grid_).empty())
+                    f(s, Skins<dim>::place(bins, p, grid_), skins.of(p));
+        });
+    }
+    /// f(s, q, pairs) with what is kept of the pairs s <- q, sorted by ids.
+    void each_kept(auto const& f) const
+    {
+        each_species([&](auto s) {
+            each_species([&](auto q) {
+                constexpr int values = kept_values<s(), q()>;
+                if constexpr (values > 0) {
+                    PairMemory<T, values> now;
+                    if (have_lists_)
+                        now.take(lists<s(), q()>(), memory_[std::size_t(s() * species_count + q())],
+                                 species<s()>().particles, species<s()>().bins, species<q()>().particles,
+                                 species<q()>().bins, width<PairV>, backend_, foreign<q()>());
+                    f(s, q, now.pairs());
+                }
+            });
+        });
+    }
+    /// Builds the lists that a checkpoint was written with: from where particles were when those were built, with the
+    /// skins of then. Lists built from the positions of now would have their neighbours in another order.
+    /// \param local  skins differ by place: skin_of(s, place)
+    /// \param pairs_of  (s, q, type of a pair) -> what was kept of the pairs, sorted by ids
+    [[gnu::cold]] void restore_lists(bool local, auto const& skin_of, auto const& pairs_of)
+    {
+        make_room();
+        each_memory([&]<class Aside>(auto s, auto q, Aside& aside, auto&) {
+            aside.put(pairs_of(s, q, std::type_identity<typename Aside::Pair>{}));
+        });
+        if (!have_lists_) return;
+        each_species([&](auto s) {
+            auto& x = species<s()>();
+            swap_with_built(x.particles);
+            x.bins.sort(x.particles, grid_);
+        });
+        sorted_markers_ = true;
+        choose_skins(true);
+        if (local) {
+            std::array<std::vector<double>, std::size_t(species_count)> of_patch;
+            each_species([&](auto s) {
+                auto const& bins = species<s()>().bins;
+                auto& skin = of_patch[std::size_t(s())];
+                skin.assign(skins_.of(s()).patches(), neighbours_.closed_in());
+                for (std::size_t p = 0; p < skin.size(); ++p)
+                    if (!Skins<dim>::particles_of(bins, p, grid_).empty())
+                        skin[p] = skin_of(s, Skins<dim>::place(bins, p, grid_));
+            });
+            skins_.use(neighbours_.closed_in(), std::move(of_patch), ranks());
+        }
+        build_lists();
+        each_species([&](auto s) { swap_with_built(species<s()>().particles); });
+    }
 
     // ---- rates
     /// Brings the rates of the asked fields up to date in every species that has them. What terms keep of pairs comes along
@@ -296,6 +417,22 @@ public:
             });
         });
     }
+    /// The evolving fields as they were when save() was called; false if the particles are others now.
+    [[gnu::cold]] bool restore()
+    {
+        bool same = true;
+        each_species([&](auto s) {
+            auto& x = species<s()>();
+            same = same && x.start.size() == x.particles.size();
+            if (same)
+                for_each(M::template evolving<s()>(), [&](auto f) {
+                    for (std::size_t c = 0; c < std::size(x.particles.column(f)); ++c)
+                        x.particles.column(f)[c] = x.start.column(f)[c];
+                });
+        });
+        kick_rates_ = false;
+        return same;
+    }
     /// y = y at the start of the step + dt * rate.
     template <class... F, class... G>
     void advance_saved(Fields<F...> first, Fields<G...> then, double dt)
@@ -321,27 +458,11 @@ public:
             const std::lock_guard hold(lock);
             e |= mine;
         });
-        if constexpr (M::moves) e |= wall_extremes();
-        return e;
+        if constexpr (M::moves) e |= wall_extremes_here();
+        return ranks().all(e, agree::Join{});
     }
     /// Of markers that move: how far since the lists were built, and how fast.
-    [[nodiscard]] Extremes wall_extremes() const
-    {
-        Extremes e;
-        std::mutex lock;
-        auto const& w = species<1>().particles;
-        backend_.for_each((w.size() + task - 1) / task, [&](std::size_t k) {
-            double moved2 = 0, speed2 = 0;
-            for (std::size_t i = k * task, end = std::min(w.size(), (k + 1) * task); i < end; ++i) {
-                moved2 = std::max(moved2, (w.at(position, i) - w.at(build_position, i)).squaredNorm());
-                speed2 = std::max(speed2, w.at(velocity, i).squaredNorm());
-            }
-            const std::lock_guard hold(lock);
-            e.wall_moved = std::max(e.wall_moved, std::sqrt(moved2));
-            e.wall_speed = std::max(e.wall_speed, std::sqrt(speed2));
-        });
-        return e;
-    }
+    [[nodiscard]] Extremes wall_extremes() const { return ranks().all(wall_extremes_here(), agree::Join{}); }
     /// The exact sum of f(i) over the mobile particles, whoever adds.
     double sum(auto const& f) const
     {
@@ -359,33 +480,27 @@ public:
     [[nodiscard]] double pair_energy([[maybe_unused]] auto const& share) const
     {
         ExactSum total;
+        std::mutex lock;
         if constexpr (M::planner.meet(0, 0) && has_pair_energy) {
-            std::mutex lock;
+            if constexpr (!alone) bring_records<0, M::mask(read_for_energy() & ParticlesOf<0>::fields)>();
             backend_.for_each(species<0>().bins.cells(), [&](std::size_t cell) {
                 const ExactSum mine = pair_energy_of(cell, share);
                 const std::lock_guard hold(lock);
                 total += mine;
             });
         }
-        return total.value();
+        return ranks().all(total, agree::Sum{}).value();
     }
-    /// The sum of what visit(sum, i, j, x, ij, force) makes of each directed contact i <- j of mobile particles: x = x_i - x_j
-    /// [m], ij what terms see, force on i [N]. Lists must be current. Cells come in any order, so a Sum must not depend on it.
-    template <class Sum>
-    [[nodiscard]] Sum over_contacts(auto const& visit) const
+    /// What a mobile particle stores in walls that it touches, wall_energy(i) of a term [J].
+    [[nodiscard]] double wall_energy_of(std::size_t i) const
     {
-        static_assert(M::planner.meet(0, 0), "spate: contacts need a pair term, such as LinearSpring");
-        Sum total{};
-        std::mutex lock;
-        backend_.for_each(species<0>().bins.cells(), [&](std::size_t cell) {
-            Sum mine{};
-            each_contact(cell, [&](auto const&... what) { visit(mine, what...); });
-            const std::lock_guard hold(lock);
-            total += mine;
+        double e = 0;
+        detail::each_in(terms_, [&](auto const& t) {
+            if constexpr (requires { t.wall_energy(AsDouble{mobile(), i}); }) e += t.wall_energy(AsDouble{mobile(), i});
         });
-        return total;
+        return e;
     }
-    /// The sum of what the mobile particles store in walls that they touch, wall_energy(i) of a term [J].
+    /// The sum of that.
     [[nodiscard]] double wall_energy() const
     {
         return wall_energy([](std::size_t) { return true; });
@@ -396,16 +511,7 @@ public:
         constexpr bool any = []<class... X>(std::tuple<X...> const*) {
             return (false || ... || requires { X::pushes; });
         }(static_cast<typename M::Terms const*>(nullptr));
-        if constexpr (any)
-            return sum([&](std::size_t i) {
-                double e = 0;
-                if (!counts(i)) return e;
-                detail::each_in(terms_, [&](auto const& t) {
-                    if constexpr (requires { t.wall_energy(AsDouble{mobile(), i}); })
-                        e += t.wall_energy(AsDouble{mobile(), i});
-                });
-                return e;
-            });
+        if constexpr (any) return sum([&](std::size_t i) { return counts(i) ? wall_energy_of(i) : 0.0; });
         else return 0;
     }
     /// What terms of a boundary without markers do to the particles: f(i, sums) with all that they add to particle i.
@@ -443,18 +549,34 @@ public:
                 }
             }
         });
-        lost_ = lost_ || lost;
-        return any;
+        lost_ = ranks().all(lost_ || lost, agree::Or{});
+        return ranks().all(bool(any), agree::Or{});
     }
     /// Whether a particle bounced too often within one step.
     [[nodiscard]] bool lost() const { return lost_; }
+    /// The sum of what visit(sum, i, j, x, ij, force) makes of each directed contact i <- j of mobile particles: x = x_i - x_j
+    /// [m], ij what terms see, force on i [N]. Lists must be current. Cells come in any order, so a Sum must not depend on it.
+    template <class Sum>
+    [[nodiscard]] Sum over_contacts(auto const& visit) const
+    {
+        static_assert(M::planner.meet(0, 0), "spate: contacts need a pair term, such as LinearSpring");
+        Sum total{};
+        std::mutex lock;
+        backend_.for_each(species<0>().bins.cells(), [&](std::size_t cell) {
+            Sum mine{};
+            each_contact(cell, [&](auto const&... what) { visit(mine, what...); });
+            const std::lock_guard hold(lock);
+            total += mine;
+        });
+        return total;
+    }
     /// Bytes of all that is kept for the particles: columns, records, lists, bins.
     [[nodiscard, gnu::cold]] std::size_t bytes() const
     {
         std::size_t b = 0;
         each_species([&](auto s) {
             auto const& x = species<s()>();
-            b += x.particles.bytes() + x.start.bytes() + x.bins.bytes() + x.packed.data.capacity() * sizeof(T);
+            b += x.particles.bytes() + x.start.bytes() + x.bins.bytes() + x.packed.data.capacity() * sizeof(PairT);
         });
         for (auto const& l : lists_) b += l.bytes();
         for (auto const& of_species : memory_)
@@ -470,7 +592,7 @@ public:
         std::uint64_t total = 0;
         each_species([&](auto s) {
             auto const& p = species<s()>().particles;
-            for (std::size_t i = 0; i < p.size(); ++i) {
+            for (std::size_t i = 0; i < counted<s()>(); ++i) {
                 std::uint64_t h = mix(mix(std::uint64_t(s()) + 1) + p.id()[i]);
                 for_each(M::template evolving<s()>(), [&](auto f) {
                     for (auto const& column : p.column(f)) {
@@ -499,7 +621,7 @@ public:
                 }
             });
         });
-        return total;
+        return ranks().all(total, agree::Sum{});
     }
     /// What terms keep of the directed pairs s <- q, in the order of their ids; pairs of which it is zero are not there.
     template <int s, int q>
@@ -508,23 +630,70 @@ public:
         auto now = std::get<std::size_t(s * species_count + q)>(aside_);
         if (have_lists_)
             now.take(lists<s, q>(), memory_[std::size_t(s * species_count + q)], species<s>().particles,
-                     species<s>().bins, species<q>().particles, species<q>().bins, width<V>, backend_);
+                     species<s>().bins, species<q>().particles, species<q>().bins, width<PairV>, backend_,
+                     foreign<q>());
         return now.pairs();
     }
     /// Makes room for the particles that have been added since.
     [[gnu::cold]] void resized()
     {
-        each_species([&](auto s) {
-            auto& x = species<s()>();
-            if (saves_) x.start.resize(x.particles.size());
-            x.particles.pad();
-        });
+        make_room();
         forget_lists();
+    }
+    /// Whether the k-th of new particles starts here: until shares are known, blocks go from rank to rank.
+    [[nodiscard]] bool starts_here([[maybe_unused]] std::size_t k) const
+    {
+        if constexpr (alone) return true;
+        else return k / 256 % std::size_t(ranks().count()) == std::size_t(ranks().rank());
+    }
+    /// Room for those of `total` new particles that start here; all others are started by other ranks.
+    template <int s>
+    void adopt(std::vector<std::uint32_t> numbers, std::size_t total)
+    {
+        auto& p = species<s>().particles;
+        for (auto& k : numbers) k += p.next_id();
+        p.append(numbers);
+        p.skip_ids(total);
+        parts_.own(s, p.size());
+    }
+    /// Whether all particles here are this rank's own.
+    template <int s>
+    [[nodiscard]] bool owns_all() const
+    {
+        return parts_.owned(s) == species<s>().particles.size();
+    }
+    /// Of what all ranks have been given alike each keeps its own. \param cut  by new cuts, of like numbers of particles
+    void distribute([[maybe_unused]] bool cut)
+    {
+        if constexpr (!alone) {
+            if (cut) cut_by_number();
+            go_home(false);
+            if (cut) check_cells();
+        }
+    }
+    /// Tests move cells at every so many steps: cuts by a cost that has nothing to do with work.
+    void wander([[maybe_unused]] std::int64_t step)
+    {
+        if constexpr (!alone) {
+            if (backend_.balance.forced == 0 || step % backend_.balance.forced != 0 || !have_lists_) return;
+            std::vector<CellCost> cost;
+            each_species([&](auto s) {
+                auto const& bins = species<s()>().bins;
+                for (std::size_t k = 0; k < bins.cells(); ++k) {
+                    const auto key = along_curve<dim>(bins.cell(k));
+                    cost.push_back({key, std::int64_t(1 + mix(key + std::uint64_t(step)) % 8)});
+                }
+            });
+            redistribute(Shares<dim>::of_like_cost(std::move(cost), ranks()));
+        }
     }
     /// The grid of bins and cells; before the first evaluation.
     void use(Grid<dim> grid)
     {
         grid_ = std::move(grid);
+        wrap_after_ = std::numeric_limits<double>::infinity();
+        for (int c = 0; c < dim; ++c)
+            if (grid_.periodic(c)) wrap_after_ = std::min(wrap_after_, grid_.period(c));
         forget_lists();
     }
     /// The sums of chosen terms on the mobile particles over one source only, without touching the rates: the force of a
@@ -549,6 +718,29 @@ public:
     }
 
 private:
+    [[nodiscard]] std::int64_t pairs_here() const
+    {
+        std::int64_t n = 0;
+        for (auto const& l : lists_) n += l.pairs();
+        return n;
+    }
+    [[nodiscard]] Extremes wall_extremes_here() const
+    {
+        Extremes e;
+        std::mutex lock;
+        auto const& w = species<1>().particles;
+        backend_.for_each((w.size() + task - 1) / task, [&](std::size_t k) {
+            double moved2 = 0, speed2 = 0;
+            for (std::size_t i = k * task, end = std::min(w.size(), (k + 1) * task); i < end; ++i) {
+                moved2 = std::max(moved2, (w.at(position, i) - w.at(build_position, i)).squaredNorm());
+                speed2 = std::max(speed2, w.at(velocity, i).squaredNorm());
+            }
+            const std::lock_guard hold(lock);
+            e.wall_moved = std::max(e.wall_moved, std::sqrt(moved2));
+            e.wall_speed = std::max(e.wall_speed, std::sqrt(speed2));
+        });
+        return e;
+    }
     using Interaction = typename M::Interaction;
     /// Whether there are as many particles as when the lists were built.
     [[nodiscard]] bool lists_know_all() const
@@ -564,31 +756,34 @@ private:
     static constexpr bool has_pair_energy = []<class... X>(std::tuple<X...> const*) {
         return (false || ... || stores_energy<X>);
     }(static_cast<typename M::Terms const*>(nullptr));
-    /// Of the targets in a cell: what is out of range is passed over.
+    /// Of the targets in a cell. Both copies of a pair store the same: one is counted, but for images and others' particles.
     [[nodiscard]] ExactSum pair_energy_of(std::size_t cell, auto const& share) const
     {
         auto const& p = mobile();
         auto const& bins = species<0>().bins;
-        auto const& images = bins.images();
         auto const& lists = this->template lists<0, 0>().of_cell(cell);
-        constexpr auto W = std::size_t(width<V>);
+        auto const& x = p.column(position);
+        constexpr auto W = std::size_t(width<PairV>);
         constexpr auto stride = std::uint32_t(Layout<dim, Set<M::template record<0>()>>::stride);
         const std::size_t n = p.size(), first = std::size_t(bins.begin(cell));
-        const double range2 = physics_.interaction.range() * physics_.interaction.range();
+        const double most2 = physics_.interaction.range() * physics_.interaction.range() * (1 + 1e-6);
         ExactSum sum;
         for (std::size_t block = 0; block + 1 < lists.begin.size(); ++block)
             for (auto row = std::size_t(lists.begin[block]); row < std::size_t(lists.begin[block + 1]); ++row)
                 for (std::size_t lane = 0; lane < W; ++lane) {
                     const std::size_t j = std::uint32_t(lists.index[row * W + lane]) / stride;
-                    if (j == n) continue;
                     const std::size_t i = first + std::size_t(lists.target[block * W + lane]);
-                    const std::size_t of = j < n ? j : std::size_t(images.of[j - n - 1]);
-                    Vec<dim, double> x = p.at(position, i) - p.at(position, of);
-                    if (j > n) x -= shift_of(images.code[j - n - 1], grid_);
-                    if (x.squaredNorm() > range2 * (1 + 1e-6)) continue;
-                    const double part = share(i, of);
-                    if (part > 0)
-                        add_pair_energy(sum, part, cell, row, lane, i, of, j > n ? images.code[j - n - 1] : 0);
+                    if (j <= i || j == n) continue;
+                    double d2 = 0;
+                    for (std::size_t c = 0; j < n && c < std::size_t(dim); ++c) {
+                        const double d = double(x[c][i]) - double(x[c][j]);
+                        d2 += d * d;
+                    }
+                    if (!(d2 < most2)) continue;
+                    const std::size_t of = particle_of(j);
+                    const double part = share(i, of) + (j < n ? share(j, i) : 0);
+                    if (part != 0)
+                        add_pair_energy(sum, part, cell, row, lane, double_record(p, i), double_record_of(j));
                 }
         return sum;
     }
@@ -597,7 +792,7 @@ private:
     {
         ExactSum total;
         std::mutex lock;
-        const std::size_t n = mobile().size();
+        const std::size_t n = counted<0>();
         backend_.for_each((n + task - 1) / task, [&](std::size_t k) {
             std::array<double, task> addend;
             const std::size_t first = k * task, last = std::min(n, first + task);
@@ -607,87 +802,47 @@ private:
             const std::lock_guard hold(lock);
             total += mine;
         });
-        return total.value();
+        return ranks().all(total, agree::Sum{}).value();
     }
-    /// Terms of an evaluation that act on the mobile particles from a source.
-    static constexpr Mask pair_terms_from(int source)
+    /// The mobile particle behind a record other than the sentinel; of others' there is none: n.
+    std::size_t particle_of(std::size_t j) const
     {
-        Mask m = 0;
-        for (int t = 0; t < M::terms; ++t)
-            if (M::planner.on(t, 0) && M::planner.from(t, 0, source) &&
-                M::planner.term[std::size_t(t)].when == When::evaluation)
-                m |= Mask(1) << t;
-        return m;
+        auto const& of = species<0>().bins.images().of;
+        const std::size_t n = mobile().size();
+        return j < n ? j : j - n - 1 < of.size() ? std::size_t(of[j - n - 1]) : n;
     }
-    /// f(i, j, x, ij, force) for the contacts of one cell's particles, by the terms in double; memory is shown, not kept.
-    void each_contact(std::size_t cell, auto const& f) const
+    /// Of the mobile particle behind a record other than the sentinel, as it is now.
+    auto double_record_of(std::size_t j) const
     {
-        static constexpr Mask terms = pair_terms_from(0);
-        using Ri = Record<dim, double, Set<M::template fields<read_of_target(terms, 0)>()>>;
-        using Rj = Record<dim, double, Set<M::template record<0>()>>;
-        using K = Set<kept<0, 0>()>;
         auto const& p = mobile();
         auto const& images = species<0>().bins.images();
-        auto const& all = this->template lists<0, 0>();
-        auto const& lists = all.of_cell(cell);
-        const auto u = p.template uniforms<double>();
-        const auto first = std::size_t(species<0>().bins.begin(cell)), n = p.size(), W = std::size_t(width<V>);
-        for (std::size_t b = 0; b + 1 < lists.begin.size(); ++b)
-            for (auto row = std::size_t(lists.begin[b]); row < std::size_t(lists.begin[b + 1]); ++row)
-                for (std::size_t lane = 0; lane < W; ++lane) {
-                    const std::size_t entry = all.number(lists.index[row * W + lane]);
-                    if (entry == n) continue;
-                    const std::size_t i = first + std::size_t(lists.target[b * W + lane]);
-                    const std::size_t j = entry < n ? entry : std::size_t(images.of[entry - n - 1]);
-                    Ri ri = record_in_double<Ri>(p, i);
-                    Rj rj = record_in_double<Rj>(p, j);
-                    if (entry > n) rj[position] += shift_of(images.code[entry - n - 1], grid_);
-                    const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, u, rj, u);
-                    if (!ij.mask) continue;
-                    typename detail::Kept<dim, double, K>::Seen seen;
-                    seen.elapsed = due_;
-                    remembered<K>(seen, memory_[0], cell, row, lane);
-                    Record<dim, double, Set<M::template fields<added(terms)>()>> sums;
-                    clear(sums);
-                    detail::apply_all<terms>(terms_, ri, u, rj, u, sums, ij,
-                                             std::make_index_sequence<std::size_t(M::terms)>{}, &seen);
-                    f(i, j, ri[position] - rj[position], ij, p.at(mass, i) * sums[acceleration]);
-                }
-    }
-    /// What is kept of the pair at a place of the lists.
-    template <class K>
-    static void remembered(auto& to, auto const& memory, std::size_t cell, std::size_t row, std::size_t lane)
-    {
-        if constexpr (K::size > 0) {
-            using L = Layout<dim, K>;
-            constexpr int W = width<V>;
-            const auto value = [&](int k) {
-                return double(memory[cell][PairMemory<T, L::count>::place(row, k, W) + lane]);
-            };
-            for_each(K{}, [&]<class F>(F field) {
-                if constexpr (F::rank == 0) to[field] = value(L::template offset<F>);
-                else
-                    for (int c = 0; c < components<F, dim>; ++c) to[field][c] = value(L::template offset<F> + c);
-            });
+        const std::size_t n = p.size();
+        if constexpr (!alone) {
+            auto const& foreign = parts_.foreign(0);
+            if (j >= std::size_t(foreign.first)) {
+                const std::size_t k = foreign.number_of(j), image = j - std::size_t(foreign.first);
+                auto r = packed_record(std::size_t(foreign.first) + k);
+                if (image != k)
+                    r[position] += shift_of(foreign.bins->images().code[image - foreign.places.size], grid_);
+                return r;
+            }
         }
-    }
-    template <class R>
-    static R record_in_double(auto const& p, std::size_t i)
-    {
-        R r;
-        for_each(R::fields, [&](auto f) { r[f] = p.at(f, i); });
+        auto r = double_record(p, j < n ? j : std::size_t(images.of[j - n - 1]));
+        if (j > n) r[position] += shift_of(images.code[j - n - 1], grid_);
         return r;
     }
-    /// What the terms that store energy read of a pair, or keep.
-    static constexpr auto read_for_energy()
+    auto packed_record(std::size_t j) const
     {
-        return []<class... X>(std::tuple<X...> const*) {
-            auto one = []<class Y>(Y const*) {
-                if constexpr (stores_energy<Y>) return reads_i<Y>() | reads_j<Y>();
-                else return Fields<>{};
-            };
-            return (Interaction::reads | ... | one(static_cast<X const*>(nullptr)));
-        }(static_cast<typename M::Terms const*>(nullptr));
+        auto const& packed = species<0>().packed;
+        using L = typename std::remove_cvref_t<decltype(packed)>::L;
+        Record<dim, double, Set<(read_for_energy() & ParticlesOf<0>::fields)>> r;
+        for_each(r.fields, [&]<class F>(F f) {
+            T const* at = packed.data.data() + j * std::size_t(L::stride) + L::template offset<F>;
+            if constexpr (F::rank == 0) r[f] = double(*at);
+            else
+                for (int c = 0; c < dim; ++c) r[f][c] = double(at[c]);
+        });
+        return r;
     }
     /// Tells terms that keep something of contacts with walls what a sweep does with it.
     static void carry_at_walls(typename M::Terms& terms, Carry const& carry)
@@ -723,19 +878,97 @@ private:
             else return particle[f];
         }
     };
+    /// Terms of an evaluation that act on the mobile particles from a source.
+    static constexpr Mask pair_terms_from(int source)
+    {
+        Mask m = 0;
+        for (int t = 0; t < M::terms; ++t)
+            if (M::planner.on(t, 0) && M::planner.from(t, 0, source) &&
+                M::planner.term[std::size_t(t)].when == When::evaluation)
+                m |= Mask(1) << t;
+        return m;
+    }
+    /// f(i, j, x, ij, force) for the contacts of one cell's particles, by the terms in double; memory is shown, not kept.
+    void each_contact(std::size_t cell, auto const& f) const
+    {
+        static constexpr Mask terms = pair_terms_from(0);
+        using Ri = Record<dim, double, Set<M::template fields<read_of_target(terms, 0)>()>>;
+        using Rj = Record<dim, double, Set<M::template record<0>()>>;
+        using K = Set<kept<0, 0>()>;
+        auto const& p = mobile();
+        auto const& images = species<0>().bins.images();
+        auto const& all = this->template lists<0, 0>();
+        auto const& lists = all.of_cell(cell);
+        const auto u = p.template uniforms<double>();
+        const auto first = std::size_t(species<0>().bins.begin(cell)), n = p.size(), W = std::size_t(width<PairV>);
+        for (std::size_t b = 0; b + 1 < lists.begin.size(); ++b)
+            for (auto row = std::size_t(lists.begin[b]); row < std::size_t(lists.begin[b + 1]); ++row)
+                for (std::size_t lane = 0; lane < W; ++lane) {
+                    const std::size_t entry = all.number(lists.index[row * W + lane]);
+                    if (entry == n) continue;
+                    const std::size_t i = first + std::size_t(lists.target[b * W + lane]);
+                    const std::size_t j = entry < n ? entry : std::size_t(images.of[entry - n - 1]);
+                    Ri ri = record_in_double<Ri>(p, i);
+                    Rj rj = record_in_double<Rj>(p, j);
+                    if (entry > n) rj[position] += shift_of(images.code[entry - n - 1], grid_);
+                    const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, u, rj, u);
+                    if (!ij.mask) continue;
+                    typename detail::Kept<dim, double, K>::Seen seen;
+                    seen.elapsed = due_;
+                    remembered<K>(seen, memory_[0], cell, row, lane);
+                    Record<dim, double, Set<M::template fields<added(terms)>()>> sums;
+                    clear(sums);
+                    detail::apply_all<terms>(terms_, ri, u, rj, u, sums, ij,
+                                             std::make_index_sequence<std::size_t(M::terms)>{}, &seen);
+                    f(i, j, ri[position] - rj[position], ij, p.at(mass, i) * sums[acceleration]);
+                }
+    }
+    /// What is kept of the pair at a place of the lists.
+    template <class K>
+    static void remembered(auto& to, auto const& memory, std::size_t cell, std::size_t row, std::size_t lane)
+    {
+        if constexpr (K::size > 0) {
+            using L = Layout<dim, K>;
+            constexpr int W = width<PairV>;
+            const auto value = [&](int k) {
+                return double(memory[cell][PairMemory<T, L::count>::place(row, k, W) + lane]);
+            };
+            for_each(K{}, [&]<class F>(F field) {
+                if constexpr (F::rank == 0) to[field] = value(L::template offset<F>);
+                else
+                    for (int c = 0; c < components<F, dim>; ++c) to[field][c] = value(L::template offset<F> + c);
+            });
+        }
+    }
+    template <class R>
+    static R record_in_double(auto const& p, std::size_t i)
+    {
+        R r;
+        for_each(R::fields, [&](auto f) { r[f] = p.at(f, i); });
+        return r;
+    }
+    /// What the terms that store energy read of a pair, or keep.
+    static constexpr auto read_for_energy()
+    {
+        return []<class... X>(std::tuple<X...> const*) {
+            auto one = []<class Y>(Y const*) {
+                if constexpr (stores_energy<Y>) return reads_i<Y>() | reads_j<Y>();
+                else return Fields<>{};
+            };
+            return (Interaction::reads | ... | one(static_cast<X const*>(nullptr)));
+        }(static_cast<typename M::Terms const*>(nullptr));
+    }
     static auto double_record(auto const& p, std::size_t i)
     {
         Record<dim, double, Set<(read_for_energy() & ParticlesOf<0>::fields)>> r;
         for_each(r.fields, [&](auto f) { r[f] = p.at(f, i); });
         return r;
     }
-    void add_pair_energy(ExactSum& sum, double part, std::size_t cell, std::size_t row, std::size_t lane, std::size_t i,
-                         std::size_t j, int code) const
+    /// \param part  of the energy of a pair that counts
+    void add_pair_energy(ExactSum& sum, double part, std::size_t cell, std::size_t row, std::size_t lane,
+                         auto const& ri, auto const& rj) const
     {
-        auto const& p = mobile();
-        const auto u = p.template uniforms<double>();
-        auto ri = double_record(p, i), rj = double_record(p, j);
-        if (code != 0) rj[position] += shift_of(code, grid_);
+        const auto u = mobile().template uniforms<double>();
         const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, u, rj, u);
         if constexpr (requires { ij.mask; })
             if (!ij.mask) return;
@@ -825,7 +1058,7 @@ private:
             if (carry.keep) due_ = carry.elapsed * (1 - carry.reach); // exact: reach is 1, or 2 at half a step
         }
         else run<plan>();
-        if constexpr (plan.sweeps() > 0) ++evaluations_, pairs_evaluated_ += pairs();
+        if constexpr (plan.sweeps() > 0) ++evaluations_, pairs_evaluated_ += pairs_here();
     }
     template <auto const& plan>
     void run()
@@ -885,10 +1118,23 @@ private:
         (one(std::integral_constant<std::size_t, t>{}), ...);
     }
     /// Not inlined: compiled once, not for each component of each field.
-    template <std::size_t stride>
-    [[gnu::noinline]] static void pack_column(T const* from, T* to, std::size_t first, std::size_t last)
+    template <std::size_t stride, class F>
+    [[gnu::noinline]] static void pack_column(T const* from, PairT* to, std::size_t first, std::size_t last)
     {
-        for (std::size_t i = first; i < last; ++i) to[i * stride] = from[i];
+        for (std::size_t i = first; i < last; ++i) to[i * stride] = ParticlesOf<0>::template rounded<PairT, F>(from[i]);
+    }
+    /// Where positions are copied, so are their tails.
+    template <Mask copied>
+    static constexpr auto with_tail()
+    {
+        constexpr auto set = M::template fields<copied>();
+        if constexpr (decltype(set)::template contains<Position>) return in_pairs(set);
+        else return set;
+    }
+    /// Both components of a record of two: whole registers of them, interleaved.
+    [[gnu::noinline]] static void pack_two(T const* x, T const* y, T* to, std::size_t first, std::size_t last)
+    {
+        for (std::size_t i = first; i < last; ++i) to[2 * i] = x[i], to[2 * i + 1] = y[i];
     }
     /// Copies fields of a species into its records; then the sentinel and the images.
     template <int s, Mask copied>
@@ -897,18 +1143,28 @@ private:
         auto& x = species<s>();
         using L = typename std::remove_cvref_t<decltype(x.packed)>::L;
         auto const& images = x.bins.images();
-        const std::size_t n = x.particles.size(), records = n + 1 + images.of.size();
+        const std::size_t n = x.particles.size();
+        std::size_t records = n + 1 + images.of.size();
+        if constexpr (!alone) parts_.finish(s), records += parts_.foreign(s).records();
         constexpr auto stride = std::size_t(L::stride);
-        if (x.packed.data.size() != records * stride) x.packed.data.assign(records * stride, T(1));
-        T* const data = x.packed.data.data();
+        constexpr bool one_vector =
+            std::same_as<decltype(M::template fields<copied>()), Fields<Position>> && dim == 2 && !mixed;
+        if (x.packed.data.size() != records * stride) x.packed.data.assign(records * stride, PairT(1));
+        PairT* const data = x.packed.data.data();
         stretches<s>([&](std::size_t first, std::size_t end) {
             constexpr std::size_t in_cache = 256; // records that stay in the first-level cache over all their fields
             for (std::size_t last; first < end; first = last) {
                 last = std::min(end, first + in_cache);
-                for_each(M::template fields<copied>(), [&]<class F>(F f) {
+                if constexpr (stride == 2 && one_vector) {
+                    auto const& column = x.particles.column(position);
+                    pack_two(column[0].data(), column[1].data(), data, first, last);
+                    continue;
+                }
+                for_each(Set<with_tail<copied>()>{}, [&]<class F>(F f) {
                     for (int c = 0; c < components<F, dim>; ++c) {
-                        T const* from = x.particles.column(f)[std::size_t(c)].data();
-                        pack_column<stride>(from, data + std::size_t(L::template offset<F> + c), first, last);
+                        T const* from = x.particles.source_of(f)[std::size_t(c)].data();
+                        using Kind = std::conditional_t<std::same_as<F, PositionTail>, F, Position>;
+                        pack_column<stride, Kind>(from, data + std::size_t(L::template offset<F> + c), first, last);
                     }
                 });
             }
@@ -917,15 +1173,74 @@ private:
         for (std::size_t f = 0; f < stride && n > 0; ++f) data[n * stride + f] = data[f];
         for (std::size_t c = 0; c < std::size_t(dim); ++c)
             data[n * stride + at + c] = x.packed.far; // beyond every range
+        if constexpr (!alone) send_records<s, copied>();
         if (images.of.empty()) return;
         backend_.for_each((images.of.size() + task - 1) / task, [&](std::size_t k) {
             for (std::size_t g = k * task, end = std::min(images.of.size(), (k + 1) * task); g < end; ++g) {
-                T* const to = data + (n + 1 + g) * stride;
+                PairT* const to = data + (n + 1 + g) * stride;
                 std::copy_n(data + std::size_t(images.of[g]) * stride, stride, to);
                 const Vec<dim, double> shift = shift_of(images.code[g], grid_);
-                for (int c = 0; c < dim; ++c) to[at + std::size_t(c)] += T(shift[c]);
+                move_record<L>(to, shift);
             }
         });
+    }
+    /// A record of an image lies elsewhere.
+    template <class L>
+    static void move_record(PairT* record, Vec<dim, double> const& shift)
+    {
+        PairT* const at = record + L::template offset<Position>;
+        for (int c = 0; c < dim; ++c) {
+            if constexpr (mixed) {
+                PairT* const tail = record + L::template offset<PositionTail>;
+                const T moved = T(at[c]) + T(tail[c]) + T(shift[c]);
+                at[c] = PairT(moved), tail[c] = PairT(moved - T(PairT(moved)));
+            }
+            else at[c] += PairT(shift[c]);
+        }
+    }
+    /// Sends fields of those records that others wait for, and takes theirs as they come.
+    template <int s, Mask copied>
+    void send_records()
+    {
+        using L = typename decltype(Species<s>::packed)::L;
+        static constexpr auto offset = [] {
+            std::array<std::size_t, std::size_t(Layout<dim, Set<with_tail<copied>()>>::count)> o{};
+            std::size_t k = 0;
+            for_each(Set<with_tail<copied>()>{}, [&]<class F>(F) {
+                for (int c = 0; c < components<F, dim>; ++c) o[k++] = std::size_t(L::template offset<F> + c);
+            });
+            return o;
+        }();
+        constexpr auto stride = std::size_t(L::stride);
+        PairT* const data = species<s>().packed.data.data();
+        auto const& foreign = parts_.foreign(s);
+        parts_.send(
+            s, offset.size(),
+            [&](std::int32_t i, PairT* to) {
+                PairT const* const from = data + std::size_t(i) * stride;
+                for (std::size_t k = 0; k < offset.size(); ++k) to[k] = from[offset[k]];
+            },
+            [this, data, &foreign](std::int32_t i, PairT const* from) {
+                PairT* const to = data + (std::size_t(foreign.first) + std::size_t(i)) * stride;
+                for (std::size_t k = 0; k < offset.size(); ++k) to[offset[k]] = from[k];
+                auto const& images = foreign.bins->images();
+                if (images.of.empty()) return;
+                for (auto g = images.first[std::size_t(i)]; g < images.first[std::size_t(i) + 1]; ++g) {
+                    PairT* const image =
+                        data + (std::size_t(foreign.first) + foreign.places.size + std::size_t(g)) * stride;
+                    std::copy_n(to, stride, image);
+                    const Vec<dim, double> shift = shift_of(images.code[std::size_t(g)], grid_);
+                    move_record<L>(image, shift);
+                }
+            });
+    }
+    /// Records of a species with all that others own of it, outside of a plan.
+    template <int s, Mask copied>
+    void bring_records() const
+    {
+        auto& me = const_cast<System&>(*this); // records are no state
+        me.template pack<s, copied>();
+        me.parts_.finish(s);
     }
     template <int s, Mask terms, Mask allowed>
     void sweep()
@@ -936,17 +1251,21 @@ private:
         auto run_with = [&](auto const&... source) {
             auto& x = species<s>();
             using Sums = decltype(M::template fields<added(terms) | written(terms)>());
-            using Target = decltype(M::template fields<read_of_target(terms, s)>());
+            using Target = Set<in_pairs(M::template fields<read_of_target(terms, s)>())>;
             constexpr Mask itself = (allowed >> s) & 1 ? terms : Mask(0);
-            backend_.for_each(x.bins.cells(), [&](std::size_t cell) {
-                sweep_cell<V, itself, Sums, Target>(physics_.interaction, terms_, x.particles, x.bins, cell, source...);
-            });
+            auto one = [&](std::size_t cell) {
+                sweep_cell<PairV, itself, Sums, Target>(physics_.interaction, terms_, x.particles, x.bins, cell,
+                                                        source...);
+            };
+            if constexpr (alone) backend_.for_each(x.bins.cells(), one);
+            else parts_.run(s, x.bins.cells(), (from_0 != 0 ? 1u : 0u) | (from_1 != 0 ? 2u : 0u), one, backend_);
         };
         if constexpr (from_0 != 0 && from_1 != 0) run_with(source<s, 0, from_0>(), source<s, 1, from_1>());
         else if constexpr (from_0 != 0) run_with(source<s, 0, from_0>());
         else if constexpr (from_1 != 0) run_with(source<s, 1, from_1>());
         else run_with();
     }
+public:
     /// What the terms of s <- q keep of a pair.
     template <int s, int q>
     static constexpr auto kept()
@@ -963,6 +1282,8 @@ private:
     }
     template <int s, int q>
     static constexpr int kept_values = Layout<dim, Set<kept<s, q>()>>::count;
+
+private:
     /// f(s, q, memory set aside, memory by cell) for each pair of species of which something is kept.
     void each_memory(auto const& f)
     {
@@ -980,17 +1301,33 @@ private:
     auto from()
     {
         auto const& x = species<q>();
-        return typename Lists<dim>::template From<T>{lists_[std::size_t(s * species_count + q)], places<q>(), x.bins,
-                                                     Layout<dim, Set<M::template record<q>()>>::stride, s == q};
+        return typename Lists<dim>::template From<T>{
+            lists_[std::size_t(s * species_count + q)],         places<q>(), x.bins,
+            std::remove_cvref_t<decltype(x.packed)>::L::stride, s == q,      foreign<q>()};
     }
+    /// Where particles of a species were when lists were built.
     template <int s>
     auto places() const
     {
-        return Places<dim, T>::of(species<s>().particles);
+        return Places<dim, T>::of(species<s>().particles, built<s>);
+    }
+    /// The field that says so. Alone it need not be looked up: lists are built where particles are.
+    template <int s>
+    static constexpr auto built = [] {
+        if constexpr (!alone && ParticlesOf<s>::template has<BuildPosition>) return build_position;
+        else return position;
+    }();
+    template <int q>
+    Foreign<dim, T> const* foreign() const
+    {
+        if constexpr (alone) return nullptr;
+        else return &parts_.foreign(q);
     }
     template <int s, int q, Mask terms>
     auto source()
     {
+        static_assert(!mixed || kept_values<s, q> == 0,
+                      "spate: Mixed is for terms that keep nothing of a pair; take Double or Float");
         auto const& x = species<q>();
         auto& memory = memory_[std::size_t(s * species_count + q)];
         return Source<terms, Set<kept<s, q>()>, ParticlesOf<q>, std::remove_cvref_t<decltype(x.packed)>>{
@@ -1029,17 +1366,233 @@ private:
         for (std::size_t i = first; i < last; i += std::size_t(width<V>))
             store(y + i, V(load<V>(y0 + i) + V(dt) * load<V>(rate + i)));
     }
+    template <int s>
+    void remember_places()
+    {
+        auto& p = species<s>().particles;
+        if constexpr (ParticlesOf<s>::template has<BuildPosition>)
+            for (int c = 0; c < dim; ++c) p.column(build_position)[std::size_t(c)] = p.column(position)[std::size_t(c)];
+    }
+    void make_room()
+    {
+        each_species([&](auto s) {
+            auto& x = species<s()>();
+            if (saves_) x.start.resize(x.particles.size());
+            x.particles.pad();
+        });
+    }
+    /// Builds the lists of sorted particles, and gives them what was set aside of the pairs.
+    void build_lists()
+    {
+        const double range = physics_.interaction.range(), beyond = neighbours_.skin - neighbours_.closed_in();
+        each_species([&](auto s) {
+            auto build = [&](auto... sources) {
+                const std::array<typename Lists<dim>::template From<T>, sizeof...(sources)> from{sources...};
+                Lists<dim>::build(places<s()>(), species<s()>().bins, grid_, width<PairV>, neighbours_.window, range,
+                                  skins_.of(s()), beyond, backend_, from);
+            };
+            constexpr bool meets_0 = M::planner.meet(s(), 0), meets_1 = species_count == 2 && M::planner.meet(s(), 1);
+            if constexpr (meets_0 && meets_1) build(from<s(), 0>(), from<s(), 1>());
+            else if constexpr (meets_0) build(from<s(), 0>());
+            else if constexpr (meets_1) build(from<s(), 1>());
+        });
+        each_memory([&](auto s, auto q, auto& aside, auto& memory) {
+            aside.give(lists<s(), q()>(), memory, species<s()>().particles, species<s()>().bins,
+                       species<q()>().particles, species<q()>().bins, width<PairV>, backend_, foreign<q()>());
+            aside.clear(); // it would be old news to lists to come
+        });
+        have_lists_ = true;
+    }
+    void look_around()
+    {
+        auto others = [&]<int s>(std::integral_constant<int, s>) -> Binning<dim> const* {
+            if constexpr (alone) return nullptr;
+            else return &parts_.halo(s).bins();
+        };
+        constexpr std::integral_constant<int, 0> mobiles{};
+        if constexpr (M::markers) {
+            constexpr std::integral_constant<int, 1> of_walls{};
+            skins_.look_around(grid_, species<0>().bins, &species<1>().bins, others(mobiles), others(of_walls));
+        }
+        else skins_.look_around(grid_, species<0>().bins, nullptr, others(mobiles));
+    }
+
+    // ---- on many ranks
+    Index<dim> cell_at(auto const& p, auto field, std::size_t i) const
+    {
+        Index<dim> cell;
+        for (int c = 0; c < dim; ++c)
+            cell[std::size_t(c)] =
+                grid_.cell_of(c, grid_.bin(c, grid_.wrapped(c, double(p.column(field)[std::size_t(c)][i]))));
+        return cell;
+    }
+    /// Sends each particle, and what is kept of its pairs, to the owner of its cell.
+    /// \param as_built  by where it was when lists were built    \param extra  of each particle, goes along
+    void go_home(bool as_built, std::array<std::vector<double>, std::size_t(species_count)>* extra = nullptr)
+    {
+        std::array<std::vector<double>, std::size_t(species_count)> nothing;
+        if (!extra) extra = &nothing;
+        std::map<int, Message> to;
+        std::array<std::map<std::uint32_t, int>, std::size_t(species_count)> away;
+        bool markers_moved = false;
+        each_species([&](auto s) {
+            auto& p = species<s()>().particles;
+            std::vector<int> home(p.size());
+            Index<dim> last{};
+            for (std::size_t i = 0; i < home.size(); ++i) {
+                const Index<dim> cell = as_built ? cell_at(p, built<s()>, i) : cell_at(p, position, i);
+                home[i] = i > 0 && cell == last ? home[i - 1] : parts_.owner(cell);
+                last = cell;
+                if (home[i] != ranks().rank()) {
+                    if (i < parts_.owned(s())) away[std::size_t(s())][p.id()[i]] = home[i];
+                    if (s() == 1) markers_moved = true;
+                }
+            }
+            parts_.leave(s(), p, home, (*extra)[std::size_t(s())], to);
+        });
+        each_memory([&](auto s, auto q, auto& aside, auto&) {
+            using Pair = typename std::remove_cvref_t<decltype(aside)>::Pair;
+            std::map<int, std::vector<Pair>> gone;
+            auto const& of = away[std::size_t(s())];
+            aside.part([&](Pair const& pair) {
+                const auto it = of.find(pair.i);
+                if (it == of.end()) return false;
+                gone[it->second].push_back(pair);
+                return true;
+            });
+            for (auto const& [rank, pairs] : gone) {
+                to[rank].put(species_count + s() * species_count + q());
+                to[rank].put(pairs);
+            }
+        });
+        std::vector<Parcel> parcels;
+        for (auto& [rank, message] : to) parcels.push_back({rank, std::move(message)});
+        for (auto& parcel : ranks().scatter(std::move(parcels)))
+            while (!parcel.message.empty()) {
+                const int what = parcel.message.template take<int>();
+                each_species([&](auto s) {
+                    if (s() != what) return;
+                    parts_.arrive(s(), species<s()>().particles, (*extra)[std::size_t(s())], parcel.message);
+                    if (s() == 1) markers_moved = true;
+                });
+                each_memory([&](auto s, auto q, auto& aside, auto&) {
+                    using Pair = typename std::remove_cvref_t<decltype(aside)>::Pair;
+                    if (what == species_count + s() * species_count + q())
+                        aside.join(parcel.message.template take_all<Pair>());
+                });
+            }
+        if (markers_moved) sorted_markers_ = false;
+        each_species([&](auto s) {
+            auto& x = species<s()>();
+            if (saves_) x.start.resize(x.particles.size());
+            x.particles.pad();
+        });
+    }
+    /// Who is near across the borders, now that particles are sorted.
+    void meet_others()
+    {
+        each_species([&](auto q) {
+            auto& x = species<q()>();
+            parts_.finish(q());
+            auto with = [&](auto... targets) {
+                parts_.halo(q()).meet({&species<targets()>().bins...}, x.bins, places<q()>(), x.particles.id(), grid_,
+                                      parts_.shares(), ranks());
+            };
+            constexpr std::integral_constant<int, 0> mobiles{};
+            if constexpr (species_count == 2 && q() == 0) with(mobiles, std::integral_constant<int, 1>{});
+            else with(mobiles); // markers do not meet
+            parts_.place(q(), x.particles.size() + 1 + x.bins.images().of.size());
+        });
+        each_species(
+            [&](auto s) { each_species([&](auto q) { parts_.look_around(s(), q(), species<s()>().bins, grid_); }); });
+    }
+    /// The patch in which each particle was when lists were built.
+    template <int s>
+    std::vector<Index<dim>> patches() const
+    {
+        auto const& p = species<s>().particles;
+        std::vector<Index<dim>> patch(p.size());
+        for (std::size_t i = 0; i < patch.size(); ++i)
+            for (int c = 0; c < dim; ++c) {
+                const auto k = std::size_t(c);
+                const std::int32_t bin = grid_.bin(c, double(p.column(built<s>)[k][i])), n = grid_.per_range(c);
+                patch[i][k] = bin >= 0 ? bin / n : -((-bin + n - 1) / n);
+            }
+        return patch;
+    }
+    bool balance_due() { return backend_.balance.every > 0 && ++looks_ % backend_.balance.every == 0; }
+    [[gnu::cold]] void check_cells() const
+    {
+        std::set<Index<dim>> here;
+        each_species([&](auto s) {
+            auto const& p = species<s()>().particles;
+            for (std::size_t i = 0; i < p.size(); ++i) here.insert(cell_at(p, position, i));
+        });
+        const auto cells = ranks().all(std::int64_t(here.size()), agree::Sum{});
+        if (cells > 0 && cells < ranks().count())
+            throw BadInput("the number of ranks", std::to_string(ranks().count()),
+                           "at most that of occupied cells, " + std::to_string(cells) + "; smaller cells are more");
+    }
+    /// Like shares of particles, before anything is known of what they cost.
+    void cut_by_number()
+    {
+        std::map<std::uint64_t, std::int64_t> in_cell;
+        each_species([&](auto s) {
+            Index<dim> last{};
+            std::int64_t* count = nullptr;
+            for (std::size_t i = 0; i < counted<s()>(); ++i) {
+                const auto cell = cell_at(species<s()>().particles, position, i);
+                if (!count || cell != last) count = &in_cell[along_curve<dim>(cell)], last = cell;
+                ++*count;
+            }
+        });
+        std::vector<CellCost> cost;
+        for (auto const& [key, n] : in_cell) cost.push_back({key, n});
+        parts_.use(Shares<dim>::of_like_cost(std::move(cost), ranks()));
+    }
+    /// Like shares of what cells have cost since lists were built, if that pays.
+    void cut_by_cost()
+    {
+        std::vector<CellCost> cost;
+        each_species([&](auto s) {
+            auto const& bins = species<s()>().bins;
+            for (std::size_t k = 0; k < bins.cells(); ++k)
+                cost.push_back({along_curve<dim>(bins.cell(k)), parts_.cost(s())[k]});
+        });
+        parts_.cut_by_cost(std::move(cost), backend_.balance.tolerated);
+    }
+    /// The skin at each particle, empty where all are the same.
+    template <int s>
+    std::vector<double> skins_by_particle() const
+    {
+        auto const& skins = skins_.of(s);
+        auto const& x = species<s>();
+        std::vector<double> skin;
+        if (skins_.uniform()) return skin;
+        skin.resize(x.particles.size());
+        for (std::size_t p = 0; p < skins.patches(); ++p) {
+            const auto here = Skins<dim>::particles_of(x.bins, p, grid_);
+            for (auto i = here.first; i < here.last; ++i) skin[std::size_t(i)] = skins.of(p);
+        }
+        return skin;
+    }
+
+    static void swap_with_built(auto& particles)
+    {
+        if constexpr (std::remove_cvref_t<decltype(particles)>::template has<BuildPosition>)
+            std::swap(particles.column(position), particles.column(build_position));
+    }
     /// Where velocities differ lists reach far; see Skins.
     void choose_skins(bool wide)
     {
         skins_.use(neighbours_.closed_in());
         if (!neighbours_.local || !any_pairs) return;
-        if constexpr (M::markers) skins_.look_around(grid_, species<0>().bins, &species<1>().bins);
-        else skins_.look_around(grid_, species<0>().bins, nullptr);
+        look_around();
         if (wide) return;
         skins_.use(neighbours_.closed_in(), spreads([](auto& box, auto const& p, std::size_t i) {
                        for (int c = 0; c < dim; ++c) box.add(c, double(p.column(velocity)[std::size_t(c)][i]));
-                   }));
+                   }),
+                   ranks());
     }
     /// Whether a pair of any patch may have closed in by more than its skin at positions up to x + v t and `more` [m].
     [[nodiscard]] bool outrun(double t, double more) const
@@ -1065,8 +1618,13 @@ private:
         }
         else
             for (int c = 0; c < dim; ++c) markers.add(c, 0); // they stand still
-        return skins_.spreads(
+        auto all = skins_.spreads(
             grid_, species<0>().bins, markers, [&](auto& box, std::size_t i) { add(box, mobile(), i); }, backend_);
+        if constexpr (!alone) {
+            if constexpr (M::moves) all.markers = ranks().all(all.markers, agree::Join{});
+            const_cast<Parts&>(parts_).exchange_patches(0, all.mobile, skins_.of(0).patches());
+        }
+        return all;
     }
     void wrap()
     {
@@ -1109,11 +1667,13 @@ private:
     typename AllMemory<std::make_integer_sequence<int, species_count * species_count>>::type aside_;
     std::array<std::vector<Array<T>>, std::size_t(species_count* species_count)> memory_; ///< of pairs, by cell
     LocalSkins<dim, species_count> skins_;
+    [[no_unique_address]] Parts parts_;
+    double wrap_after_ = std::numeric_limits<double>::infinity(); ///< way after which positions are wrapped anew [m]
     bool have_lists_ = false, sorted_markers_ = false, kick_rates_ = false, lost_ = false;
     std::optional<Carry> carry_; ///< of sweeps for rates; to others what is kept of pairs is only shown
     double due_ = 0, moved_ = 0; ///< time since what is kept of pairs was kept, since the step was saved [s]
     bool trial_ = false;         ///< between save() and advance_saved()
-    std::int64_t rebuilds_ = 0, evaluations_ = 0, pairs_evaluated_ = 0;
+    std::int64_t rebuilds_ = 0, evaluations_ = 0, pairs_evaluated_ = 0, looks_ = 0;
 };
 
 } // namespace spate

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <string>
 
 namespace spate::io::detail {
 
@@ -20,6 +21,15 @@ public:
         if (n < next_) return false;
         next_ = n + 1;
         return true;
+    }
+
+    /// What a restart needs: f(name, number). Of another interval only when the last one was due.
+    void notes(std::string const& name, auto const& f)
+    {
+        double interval = interval_, next = next_;
+        f(name + "_interval", interval), f(name + "_next", next);
+        if (interval == interval_) next_ = next;
+        else if (interval_ > 0) next_ = std::floor((next - 1) * interval / interval_ * (1 + 1e-12)) + 1;
     }
 
 private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// \brief An HDF5 file built in memory: handles that close themselves, return codes that are checked.
-///        Not a wrapper of HDF5; only what a snapshot needs, and no write to a disk, so that a full one cannot
+///        Not a wrapper of HDF5; only what snapshots and checkpoints need, and no write to a disk, so that a full one cannot
 ///        leave the library with a file that it can neither flush nor close.
 #pragma once
 
@@ -63,6 +63,8 @@ using Hdf5Properties = Hdf5Handle<H5Pclose>;
 
 inline hid_t hdf5_type(float) { return H5T_NATIVE_FLOAT; }
 inline hid_t hdf5_type(double) { return H5T_NATIVE_DOUBLE; }
+inline hid_t hdf5_type(std::int32_t) { return H5T_NATIVE_INT32; }
+inline hid_t hdf5_type(std::uint32_t) { return H5T_NATIVE_UINT32; }
 inline hid_t hdf5_type(std::int64_t) { return H5T_NATIVE_INT64; }
 inline hid_t hdf5_type(std::uint8_t) { return H5T_NATIVE_UINT8; }
 
@@ -113,6 +115,20 @@ public:
         check(H5Tset_cset(type, H5T_CSET_ASCII), name);
         const Hdf5Space space(check(H5Screate(H5S_SCALAR), name));
         write_attribute(parent, name, type, space, text.data());
+    }
+
+    /// A text, filled up with zeros.
+    void text(hid_t parent, std::string const& name, std::string const& text) const
+    {
+        const Hdf5Type type(check(H5Tcopy(H5T_C_S1), name));
+        check(H5Tset_size(type, text.size() + 1), name);
+        check(H5Tset_strpad(type, H5T_STR_NULLPAD), name);
+        const Hdf5Space space(check(H5Screate(H5S_SCALAR), name));
+        const Hdf5Properties creation(check(H5Pcreate(H5P_DATASET_CREATE), name));
+        check(H5Pset_obj_track_times(creation, false), name);
+        const Hdf5Dataset set(
+            check(H5Dcreate2(parent, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), name));
+        check(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()), name);
     }
 
     /// The bytes of the file.

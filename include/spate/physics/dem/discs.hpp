@@ -23,6 +23,12 @@ struct Round {
     [[nodiscard]] double length() const { return largest; }
     [[gnu::cold]] void check() const { require_positive("radius", largest, "m"); }
 
+    /// Whether they touch: most listed pairs do not, and root and quotient of pair() are dear.
+    [[gnu::always_inline]] auto touch(auto const& i, auto const& j) const
+    {
+        const auto d = i[radius] + j[radius];
+        return (i[position] - j[position]).squaredNorm() < d * d;
+    }
     template <class V>
     [[gnu::always_inline]] auto pair(auto const& i, auto const& j) const
     {

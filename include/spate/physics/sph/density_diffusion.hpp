@@ -78,7 +78,8 @@ struct Fourtakas {
     }
 };
 
-/// What a scene writes: `DensityDiffusion{.delta = 0.1}`; the model completes it (Fourtakas with the model's gravity).
+/// What a scene writes: `DensityDiffusion{.delta = 0.1}`; the model completes it (Fourtakas with the model's gravity: in a
+/// tank that is accelerated by a_w the pressure at rest follows g - a_w, and what is of a_w is diffused like any other).
 struct DensityDiffusion {
     double delta = 0.1; ///< [-], 0.05 to 0.2
 };

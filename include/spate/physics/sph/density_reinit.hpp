@@ -76,6 +76,7 @@ struct ReinitDensity<Shepard, Dim> {
     static constexpr Fields reads{reinit_volume, reinit_mass};
     static constexpr Fields writes{density};
     static constexpr When when = When::after_step;
+    static constexpr bool writes_energy = true; ///< no force does the work: it goes into a ledger
     int every;
     void check() const { require(every >= 1, "DensityReinit.every", every, "1 or above [steps]"); }
     void operator()(auto& i) const { i[density] = i[reinit_mass] / i[reinit_volume]; }
@@ -87,6 +88,7 @@ struct ReinitDensity<Mls, Dim> {
     static constexpr auto reads = ReinitSums<Mls, Dim>::adds;
     static constexpr Fields writes{density};
     static constexpr When when = When::after_step;
+    static constexpr bool writes_energy = true; ///< no force does the work: it goes into a ledger
     int every;
     void check() const { require(every >= 1, "DensityReinit.every", every, "1 or above [steps]"); }
     void operator()(auto& i) const

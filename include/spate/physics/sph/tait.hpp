@@ -21,6 +21,9 @@ struct Tait {
     double c0;   ///< speed of sound at rho0 [m/s]; ten times the fastest flow keeps density within 1 %
 
     static constexpr double gamma = 7;
+    /// Largest rho/rho0 that a run may have [-]. Water keeps to the law up to 1.4 (Cole 1948); at 3, where p = 2186 B, a run
+    /// has left all that it was set up for, and rho^7 is still far from the largest float.
+    static constexpr double most_compression = 3;
     [[nodiscard]] double stiffness() const { return rho0 * c0 * c0 / gamma; } ///< B [Pa]
     [[gnu::cold]] void check() const
     {

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "poiseuille.hpp"
+
+namespace work_precision {
+namespace {
+const bool added = (add_channels<CubicSpline<2>>("cubic_spline", 1.3), true);
+} // namespace
+} // namespace work_precision

@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "poiseuille.hpp"
+
+namespace work_precision {
+namespace {
+const bool added = (add_channels<WendlandC2<2>>("wendland_c2", 2), true);
+} // namespace
+} // namespace work_precision

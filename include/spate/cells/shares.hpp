@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// \file
+/// \brief Who owns which cell: cells lie on a curve, each rank owns a stretch of it. The cuts are all that a rank knows of
+/// the others' shares.
+#pragma once
+
+#include "spate/cells/curve.hpp"
+#include "spate/core/ranks.hpp"
+
+#include <algorithm>
+#include <vector>
+
+namespace spate {
+
+/// What a cell costs, in whole units: sums over ranks are exact.
+struct CellCost {
+    std::uint64_t key; ///< along the curve
+    std::int64_t cost;
+};
+
+template <int Dim>
+class Shares {
+public:
+    /// All to rank 0.
+    Shares() = default;
+    /// Rank r owns the keys from first[r] to first[r + 1]; first[0] is 0.
+    explicit Shares(std::vector<std::uint64_t> first) : first_(std::move(first)) {}
+
+    [[nodiscard]] int owner(Index<Dim> const& cell) const { return owner_of(along_curve<Dim>(cell)); }
+    [[nodiscard]] int owner_of(std::uint64_t key) const
+    {
+        return int(std::upper_bound(first_.begin(), first_.end(), key) - first_.begin()) - 1;
+    }
+    [[nodiscard]] std::vector<std::uint64_t> const& first() const { return first_; }
+    friend bool operator==(Shares const&, Shares const&) = default;
+
+    /// Cuts the curve into shares of like cost; of all ranks' costs together.
+    template <class R>
+    [[nodiscard]] static Shares of_like_cost(std::vector<CellCost> mine, R const& ranks)
+    {
+        std::sort(mine.begin(), mine.end(), [](auto const& a, auto const& b) { return a.key < b.key; });
+        std::vector<std::int64_t> before{0}; // cost of those before the k-th
+        for (auto const& c : mine) before.push_back(before.back() + c.cost);
+        const auto total = ranks.all(before.back(), agree::Sum{});
+        const auto least = ranks.all(mine.empty() ? ~std::uint64_t(0) : mine.front().key, agree::Least{});
+        const auto most = ranks.all(mine.empty() ? std::uint64_t(0) : mine.back().key, agree::Most{});
+        const auto cuts = std::size_t(ranks.count());
+        std::vector<std::uint64_t> low(cuts, least), high(cuts, most + 1); // low: too little lies before it
+        low[0] = high[0] = 0;
+        auto too_little = [&](std::size_t r, std::int64_t cost) {
+            return double(cost) * double(cuts) < double(total) * double(r) - 0.5;
+        };
+        std::vector<std::int64_t> cost(cuts);
+        while (true) { // every rank sees the same numbers and leaves at the same turn
+            bool open = false;
+            for (std::size_t r = 1; r < cuts; ++r) {
+                const std::uint64_t middle = low[r] + (high[r] - low[r]) / 2;
+                const auto k = std::lower_bound(mine.begin(), mine.end(), middle,
+                                                [](auto const& a, std::uint64_t key) { return a.key < key; });
+                cost[r] = before[std::size_t(k - mine.begin())];
+                open = open || low[r] < high[r];
+            }
+            if (!open) break;
+            ranks.each(cost, agree::Sum{});
+            for (std::size_t r = 1; r < cuts; ++r) {
+                if (low[r] >= high[r]) continue;
+                const std::uint64_t middle = low[r] + (high[r] - low[r]) / 2;
+                if (too_little(r, cost[r])) low[r] = middle + 1;
+                else high[r] = middle;
+            }
+        }
+        return Shares(std::move(low));
+    }
+
+private:
+    std::vector<std::uint64_t> first_{0};
+};
+
+} // namespace spate
