@@ -355,8 +355,13 @@ public:
     }
     /// Whether a Stop has ended the run: the state is left as it was found, and nothing brings it up to date.
     [[nodiscard]] bool stopped() const { return stopped_; }
-    /// Of the mobile particles; lists must be current where contacts store energy.
-    [[nodiscard]] Energy energy() const { return energy_in(system_); }
+    /// Of the mobile particles, and what those that left had lost; lists must be current where contacts store energy.
+    [[nodiscard]] Energy energy() const
+    {
+        Energy e = energy_in(system_);
+        e.dissipated += exchanged_.left.dissipated;
+        return e;
+    }
     /// sum m v over the mobile particles [kg m/s], each component exact.
     [[nodiscard]] Point momentum() const
     {
@@ -543,7 +548,8 @@ private:
         a.mass = some.sum([&](std::size_t i) { return p.at(mass, i); });
         for (int c = 0; c < dim; ++c)
             a.momentum[c] = some.sum([&](std::size_t i) { return p.at(mass, i) * p.at(velocity, i)[c]; });
-        a.energy = energy_in(some).total();
+        const Energy e = energy_in(some);
+        a.energy = e.total(), a.dissipated = e.dissipated;
         return a;
     }
     [[nodiscard]] Energy energy_in(auto const& particles) const

@@ -3,6 +3,8 @@
 /// \brief Leapfrog: kick-drift-kick for forces of position, staggered where density drifts by a rate of its own.
 #pragma once
 
+#include <type_traits>
+
 namespace spate {
 
 /// v' = v + dt/2 a; x' = x + dt/2 v'; rho+ = rho + dt rhodot(x', v'); x+ = x' + dt/2 v'; v+ = v' + dt/2 a(x+, rho+).
@@ -36,7 +38,7 @@ struct Leapfrog {
             s.advance(s.kicked, dt / 2);
             s.advance(s.free, dt);
         }
-        if constexpr (s.reflects) s.reflect();
+        if constexpr (std::remove_cvref_t<decltype(s)>::reflects) s.reflect();
         s.rates(s.kicked);
         s.advance(s.kicked, dt / 2);
         s.keep_kick_rates();

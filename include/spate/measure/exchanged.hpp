@@ -18,10 +18,12 @@ struct Amount {
     double mass = 0;             ///< [kg]
     Vec<Dim, double> momentum{}; ///< [kg m/s]
     double energy = 0;           ///< kinetic, potential and internal; of contacts, what parts with them [J]
+    double dissipated = 0;       ///< what they had lost in contacts, where the model counts it [J]
 
     Amount& operator+=(Amount const& b)
     {
-        particles += b.particles, mass += b.mass, momentum += b.momentum, energy += b.energy;
+        particles += b.particles, mass += b.mass, momentum += b.momentum;
+        energy += b.energy, dissipated += b.dissipated;
         return *this;
     }
 };
