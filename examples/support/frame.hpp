@@ -41,11 +41,11 @@ protected:
         void begin(auto const& scene) { warn(scene.report().warnings); }
         void step(auto const& scene)
         {
-            if (scene.report().steps == 1) first_step(scene.dt(), scene.criterion());
+            if (scene.report().steps == 1) first_step(scene.dt(), scene.criterion(), scene.report().stable);
             warn(scene.report().warnings);
         }
         void end(auto const& scene) { warn(scene.report().warnings); }
-        void first_step(double dt, std::string_view criterion) const;
+        void first_step(double dt, std::string_view criterion, spate::TimeStep const& stable) const;
         /// Warnings are errors in waiting: they are told even to the quiet.
         void warn(std::vector<std::string> const& all);
         void closing(Summary const& s, std::filesystem::path const& directory,

@@ -41,6 +41,7 @@ struct RunReport {
     double energy_rise = 0;      ///< largest rise of total energy over the reference [-]
     double energy_reference = 0; ///< [J]
     Energy start;                ///< at the first step
+    TimeStep stable;             ///< largest step that linear theory lets stand at the first step
     std::vector<std::string> warnings;
 };
 
@@ -613,6 +614,7 @@ private:
             auto const& p = system_.mobile();
             if (!p.empty()) spacing = std::pow(p.at(mass, 0) / equation_of_state(physics()).rho0, 1.0 / dim);
         }
+        report_.stable = stable_step<I>(physics(), spacing, stiffness_, dt);
         for (auto& warning : advice<I>(physics(), spacing, stiffness_, dt)) report_.warnings.push_back(warning);
     }
     /// Whether the lists may miss a pair at the positions of a step of dt.
@@ -657,8 +659,11 @@ private:
         if constexpr (W::on) {
             if (e.poison != 0) stop_if_not_finite(system_.mobile(), step_, time_, [&] { return origin(); });
             if constexpr (has_equation_of_state<P>)
-                if (!(e.least_density > 0) || e.most_density > most_density())
+                if (!(e.least_density > 0) || e.most_density > most_density()) {
+                    stop_if_outside(system_.mobile(), system_.boundary(), physics().interaction.range(), step_,
+                                    time_); // one that was thrown through a wall says more than those it passed
                     stop_of_density(system_.mobile(), most_density(), step_, time_);
+                }
         }
     }
     [[nodiscard]] double most_density() const
