@@ -113,10 +113,14 @@ void Frame::Talk::going_on(std::filesystem::path const& checkpoint, std::int64_t
     std::fflush(stdout);
 }
 
-void Frame::Talk::first_step(double dt, std::string_view criterion) const
+void Frame::Talk::first_step(double dt, std::string_view criterion, spate::TimeStep const& stable) const
 {
     if (quiet) return;
-    std::printf("dt = %.4g s at the start, by the %s criterion\n", dt, std::string(criterion).c_str());
+    std::printf("dt = %.4g s at the start, by the %s criterion", dt, std::string(criterion).c_str());
+    if (std::isfinite(stable.dt))
+        std::printf("; margin %.2f to the %s limit of linear theory\n", stable.dt / dt,
+                    std::string(stable.criterion).c_str());
+    else std::printf("; linear theory has no limit without damping: heed the warnings\n");
     std::fflush(stdout);
 }
 

@@ -45,7 +45,7 @@ protected:
         void step(auto const& scene)
         {
             if (scene.report().steps == 1) {
-                first_step(scene.dt(), scene.criterion());
+                first_step(scene.dt(), scene.criterion(), scene.report().stable);
                 if (const double omega = scene.stiffness().contact_frequency; omega > 0)
                     contact(scene.integrator().name, omega, scene.dt(), scene.integrator().growth(omega * scene.dt()),
                             scene.integrator().energy_error(omega * scene.dt()));
@@ -53,7 +53,7 @@ protected:
             warn(scene.report().warnings);
         }
         void end(auto const& scene) { warn(scene.report().warnings); }
-        void first_step(double dt, std::string_view criterion) const;
+        void first_step(double dt, std::string_view criterion, spate::TimeStep const& stable) const;
         /// What the integrator makes of an undamped contact of angular frequency omega [1/s].
         void contact(char const* integrator, double omega, double dt, double growth, double error) const;
         /// Warnings are errors in waiting: they are told even to the quiet.

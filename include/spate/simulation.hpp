@@ -43,6 +43,7 @@ struct RunReport {
     double energy_rise = 0;      ///< largest rise of total energy over the reference [-]
     double energy_reference = 0; ///< [J]
     Energy start;                ///< at the first step
+    TimeStep stable;             ///< largest step that linear theory lets stand at the first step
     std::vector<std::string> warnings;
 };
 
@@ -863,6 +864,7 @@ private:
             if (!p.empty()) spacing = std::pow(p.at(mass, 0) / equation_of_state(physics()).rho0, 1.0 / dim);
             spacing = system_.ranks().all(spacing, agree::Most{});
         }
+        report_.stable = stable_step<I>(physics(), spacing, stiffness_, dt);
         for (auto& warning : advice<I>(physics(), spacing, stiffness_, dt)) report_.warnings.push_back(warning);
     }
     void after_step()
@@ -924,8 +926,10 @@ private:
                 together(system_.ranks(),
                          [&] { stop_if_not_finite(system_.mobile(), step_, time_, [&] { return origin(); }); });
             if constexpr (has_equation_of_state<P>)
-                if (!(e.least_density > 0) || e.most_density > most_density())
+                if (!(e.least_density > 0) || e.most_density > most_density()) {
+                    look_outside(); // one that was thrown through a wall says more than those it passed
                     together(system_.ranks(), [&] { stop_of_density(system_.mobile(), most_density(), step_, time_); });
+                }
         }
     }
     [[nodiscard]] double most_density() const

@@ -66,6 +66,27 @@ TEST(Advice, WarnsAboveTheAcousticLimit)
     EXPECT_NE(w[0].find("acoustic limit"), std::string::npos);
     EXPECT_TRUE(warnings(Leapfrog{}, 0.0, 1.8).empty());
 }
+// 2 h / (kappa c0) of leapfrog, 2 / omega of a contact; a scheme that grows at any step has none.
+TEST(Advice, KnowsTheMarginOfTheFirstStep)
+{
+    auto stable = [](auto integrator) {
+        const double dx = 0.05;
+        Simulation s(wcsph(CubicSpline<2>{.h = 1.3 * dx}, LinearEos{.rho0 = 1000, .c0 = 10}, Continuity<2>{},
+                           PressureForce<2>{}, ArtificialViscosity{.alpha = 0}),
+                     integrator, Periodic(Box<2>{{0, 0}, {1, 1}}));
+        s.fill(Box<2>{{0, 0}, {1, 1}}, dx);
+        s.run({.steps = 1});
+        return s.report().stable;
+    };
+    const double exact = 2 / 1.070858 * 1.3 * 0.05 / 10; // kernel_stability_constants.csv
+    EXPECT_NEAR(stable(Leapfrog{}).dt, exact, 1.1e-3 * exact);
+    EXPECT_EQ(stable(Leapfrog{}).criterion, "acoustic");
+    EXPECT_TRUE(std::isinf(stable(RungeKutta2{}).dt));
+    Simulation grains(dem<2>({.mass = 0.1, .radius = 0.01}, LinearSpring{.k = 1e5}), SymplecticEuler{}, Open{});
+    grains.add({0, 0});
+    grains.run({.steps = 1});
+    EXPECT_NEAR(grains.report().stable.dt / grains.dt(), 50 / std::numbers::pi, 1e-9); // 2 / omega over pi / (25 omega)
+}
 template <class I>
 std::vector<std::string> contact_warnings(I integrator, double dt)
 {

@@ -14,6 +14,24 @@
 
 namespace spate {
 
+/// The largest step that linear theory lets stand, and what bounds it; infinite where the scheme has no limit of its own,
+/// since it grows at any step that nothing damps.
+template <class I, class P>
+[[gnu::cold]] TimeStep stable_step(P const& physics, [[maybe_unused]] double spacing, Stiffness const& stiffness,
+                                   [[maybe_unused]] double dt)
+{
+    TimeStep stable;
+    if constexpr (has_equation_of_state<P>)
+        if (spacing > 0) {
+            const WorstWave w = worst_wave(physics, spacing, dt, &I::growth);
+            if (I::imaginary_limit > 0) stable.bound(I::imaginary_limit / w.frequency, "acoustic");
+            if (w.decay > 0) stable.bound(I::real_limit / w.decay, "viscous");
+        }
+    if (I::imaginary_limit > 0 && stiffness.contact_frequency > 0)
+        stable.bound(I::imaginary_limit / stiffness.contact_frequency, "contact");
+    return stable;
+}
+
 /// One sentence for each limit that a step passes: of sound and viscosity on the lattice of the particles (of an undamped
 /// oscillation, for contacts). docs/models/time_integration.md.
 /// \tparam I  integrator    \param spacing  of the particles [m]; 0: none yet    \param dt  [s]
