@@ -78,7 +78,7 @@ public:
     [[gnu::cold]] Simulation(P physics, I integrator, B boundary, Workers backend = {}, Precision = {}, W watch = {},
                              Neighbours neighbours = neighbours_for<typename Engine::M::Interaction>())
         : integrator_(integrator), watch_(watch), system_(checked(physics, boundary, backend, neighbours, watch),
-                                                          boundary, backend, neighbours, I::saves || W::on),
+                                                          boundary, backend, neighbours, I::saves || traces),
           g_(gravity_of(physics))
     {
         place_markers();
@@ -303,7 +303,7 @@ public:
         if constexpr (W::on) {
             if (step_ == 0) look_at_start();
             if (step_ % watch_.energy_every == 0) look_at_energy();
-            keep_step();
+            if constexpr (traces) keep_step();
         }
         system_.template phase<When::before_step>(step_, [] {}); // the lists are those of this step
         move_contacts();
@@ -316,6 +316,9 @@ public:
         report_.cpu += double(std::clock() - cpu) / CLOCKS_PER_SEC;
         report_.wall += std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count();
     }
+    /// Whether the watch can say which term made a value; on many ranks a replay would be of all of them.
+    static constexpr bool traces = requires { W::traces; }
+    &&Engine::alone;
     /// Whether a term sets densities, and with them energy that no force gives: re-initialisation.
     static constexpr bool writes_energy = []<class... T>(std::tuple<T...> const*) {
         return (false || ... || requires { T::writes_energy; });
@@ -923,8 +926,12 @@ private:
         }
         if constexpr (W::on) {
             if (e.poison != 0)
-                together(system_.ranks(),
-                         [&] { stop_if_not_finite(system_.mobile(), step_, time_, [&] { return origin(); }); });
+                together(system_.ranks(), [&] {
+                    stop_if_not_finite(system_.mobile(), step_, time_, [&]() -> Origin {
+                        if constexpr (traces) return origin();
+                        else return {};
+                    });
+                });
             if constexpr (has_equation_of_state<P>)
                 if (!(e.least_density > 0) || e.most_density > most_density()) {
                     look_outside(); // one that was thrown through a wall says more than those it passed
@@ -994,7 +1001,6 @@ private:
     /// back afterwards.
     [[gnu::cold]] Origin origin()
     {
-        if constexpr (!Engine::alone) return {}; // a replay would be of all ranks
         if (kept_dt_.empty() || kept_rebuild_ != system_.rebuilds()) return {};
         const double time = time_;
         Engine failed = system_;

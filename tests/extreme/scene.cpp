@@ -91,7 +91,7 @@ std::unique_ptr<Scene> make_of(Setup const& s)
         const Threads workers{s.threads, s.cell};
         Neighbours n = neighbours_for<std::remove_cvref_t<decltype(physics.interaction)>>();
         if (s.skin > 0) n.skin = s.skin;
-        Simulation sim(physics, chosen::AnyIntegrator{}, boundary, workers, Precision{}, s.watch, n);
+        Simulation sim(physics, chosen::AnyIntegrator{}, boundary, workers, Precision{}, TracingWatch{s.watch}, n);
         auto scene = std::make_unique<Of<decltype(sim)>>(std::move(sim));
         scene->spacing = s.dx;
         return scene;

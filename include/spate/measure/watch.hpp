@@ -31,6 +31,11 @@ struct Watch {
         require(overlap >= 0, "Watch.overlap", overlap, "a number, 0 or above [-]");
     }
 };
+/// A Watch that can name the term behind a value that is not finite: it runs the steps since the last rebuild again, term by
+/// term. This compiles every sweep once more for each of its terms, so that it is for those who ask.
+struct TracingWatch : Watch {
+    static constexpr bool traces = true;
+};
 struct NoWatch {
     static constexpr bool on = false;
     void check() const {}
