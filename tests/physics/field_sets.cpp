@@ -169,12 +169,12 @@ static_assert(same(Damped::record, Fields{position, velocity}) && Damped::S::kep
 // Of many sizes: mass and radius are columns; a neighbour sends its mass to the dashpot.
 [[maybe_unused]] auto mixture()
 {
-    return dem<3>(Mixture{.largest = 0.01}, LinearSpring{.k = 1e5}, Dashpot{.e = 0.7}, Friction{.mu = 0.5},
+    return dem<3>(Assorted{.largest = 0.01}, LinearSpring{.k = 1e5}, Dashpot{.e = 0.7}, Friction{.mu = 0.5},
                   Dissipation{});
 }
-using Mixture = decltype(scene(mixture(), Open{}));
-static_assert(same(Mixture::M::mobile, of_rough | Fields{mass, radius, dissipated, dissipation_rate}));
-static_assert(same(Mixture::record, Fields{position, radius, velocity, mass, angular_velocity}));
+using Assorted = decltype(scene(mixture(), Open{}));
+static_assert(same(Assorted::M::mobile, of_rough | Fields{mass, radius, dissipated, dissipation_rate}));
+static_assert(same(Assorted::record, Fields{position, radius, velocity, mass, angular_velocity}));
 
 } // namespace
 
@@ -189,7 +189,7 @@ TEST(FieldSets, AreTheListedMinimum)
     print("... damped spheres", Damped{});
     print("... rough discs", Rough<2>{});
     print("... rough spheres", Rough<3>{});
-    print("rough spheres of many sizes that count what they lose", Mixture{});
+    print("rough spheres of many sizes that count what they lose", Assorted{});
 }
 
 // The columns themselves, not only their sets: what a particle costs, ids and padding aside.
