@@ -181,10 +181,10 @@ public:
         to.put(velocity, i, v);
         return i;
     }
-    /// Between two steps newcomers enter, in their order and with ids that nobody had before; nobody touches them yet.
+    /// Between two steps newcomers enter, in their order and with ids that nobody had before; nobody touches them yet. All
+    /// ranks are given the same ones, and each keeps its own.
     [[gnu::cold]] Amount<dim> enter(Mobile const& more)
     {
-        static_assert(Engine::alone, "spate: particles enter and leave on one rank only");
         if (!prepared_) prepare();
         if (more.empty()) return {};
         auto& p = system_.mobile();
@@ -195,8 +195,7 @@ public:
             for (std::size_t c = 0; c < std::size(p.column(f)); ++c)
                 std::copy_n(more.column(f)[c].begin(), more.size(), p.column(f)[c].begin() + std::ptrdiff_t(first));
         });
-        check_particles();
-        check_places(first);
+        together(system_.ranks(), [&] { check_particles(), check_places(first); });
         std::vector<char> is(p.size(), 0);
         std::fill(is.begin() + std::ptrdiff_t(first), is.end(), char(1));
         const Amount<dim> a = amount_of(is, false);
@@ -207,10 +206,9 @@ public:
     /// Between two steps the particles leave for which leaves(particles, i) holds: theirs is what is returned.
     Amount<dim> remove(auto const& leaves)
     {
-        static_assert(Engine::alone, "spate: particles enter and leave on one rank only");
         if (!prepared_) prepare();
         std::vector<char> is;
-        if (!find(leaves, is)) return {};
+        if (!system_.ranks().all(find(leaves, is), agree::Or{})) return {};
         make_lists_current(); // for their contacts; may sort
         find(leaves, is);
         const Amount<dim> a = amount_of(is, true);
@@ -543,8 +541,9 @@ private:
         });
         return any;
     }
-    [[gnu::cold]] Amount<dim> amount_of(std::vector<char> const& is, bool contacts) const
+    [[gnu::cold]] Amount<dim> amount_of(std::vector<char> is, bool contacts) const
     {
+        if (contacts) is = system_.with_foreign(std::move(is));
         auto const& p = system_.mobile();
         const Some<Engine> some{system_, is, contacts};
         Amount<dim> a;

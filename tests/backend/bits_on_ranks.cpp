@@ -27,6 +27,8 @@ constexpr auto the_vortices = [](auto backend) { return scenes::vortices(backend
 constexpr auto the_discs = [](auto backend) { return scenes::discs(backend); };
 constexpr auto the_crowd = [](auto backend) { return crowd(backend); };
 
+constexpr auto the_hopper = [](auto backend) { return hopper(backend); };
+
 template <class Program>
 void expect_bits_of_one(Program program)
 {
@@ -47,6 +49,8 @@ TEST(BitsOnRanks, OfADamBreakWithAPhaseAreThoseOfOne) { expect_bits_of_one(the_s
 TEST(BitsOnRanks, OfPeriodicVorticesIn3DAreThoseOfOne) { expect_bits_of_one(the_vortices); }
 TEST(BitsOnRanks, OfPeriodicDiscsAreThoseOfOne) { expect_bits_of_one(the_discs); }
 TEST(BitsOnRanks, OfContactsThatRememberAreThoseOfOne) { expect_bits_of_one(the_crowd); }
+
+TEST(BitsOnRanks, OfGrainsThatEnterAndLeaveAreThoseOfOne) { expect_bits_of_one(the_hopper); }
 
 TEST(BitsOnRanks, DoNotDependOnCells)
 {

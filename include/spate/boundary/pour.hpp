@@ -6,6 +6,7 @@
 #include "spate/core/box.hpp"
 #include "spate/core/errors.hpp"
 #include "spate/core/fields.hpp"
+#include "spate/core/ranks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -133,7 +134,7 @@ private:
         std::vector<Ball> near;
         for (std::size_t i = 0; i < p.size(); ++i)
             if (between(scene, p.at(position, i), middle) <= far) near.push_back({p.at(position, i), radius_of(p, i)});
-        return near;
+        return shared(party_of(scene), std::move(near));
     }
     /// Draws places until the newcomer touches nobody; without one it is not among `more`.
     bool found_room(auto& scene, std::vector<Ball> const& near, auto& more)

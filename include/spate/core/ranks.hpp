@@ -103,6 +103,21 @@ template <class R, class T>
         return mine;
     }
 }
+/// The values of all ranks, one rank after the other, on all of them; of few values.
+template <class R, class T>
+[[nodiscard]] std::vector<T> shared(R const& ranks, std::vector<T> mine)
+{
+    if constexpr (R::alone) return mine;
+    else {
+        mine = gathered(ranks, std::move(mine));
+        std::vector<Parcel> parcels;
+        for (int r = 0; r < ranks.count() && ranks.rank() == 0; ++r) {
+            parcels.push_back({r, {}});
+            parcels.back().message.put(mine);
+        }
+        return ranks.scatter(std::move(parcels)).front().message.template take_all<T>();
+    }
+}
 /// The ranks that share a scene.
 template <class Scene>
 [[nodiscard]] auto party_of([[maybe_unused]] Scene const& scene)

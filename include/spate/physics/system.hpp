@@ -207,12 +207,18 @@ public:
     [[gnu::cold]] void keep(std::vector<std::int32_t> const& order)
     {
         set_aside();
-        mobile().keep(order);
-        std::vector<std::uint32_t> ids = mobile().id();
+        std::vector<char> stays(mobile().size(), 0);
+        for (const auto i : order) stays[std::size_t(i)] = 1;
+        std::vector<std::uint32_t> ids; // of those that leave, on any rank
+        for (std::size_t i = 0; i < stays.size(); ++i)
+            if (stays[i] == 0) ids.push_back(mobile().id()[i]);
+        ids = shared(ranks(), std::move(ids));
         std::sort(ids.begin(), ids.end());
+        mobile().keep(order);
+        if constexpr (!alone) parts_.own(0, order.size());
         each_memory([&](auto s, auto q, auto& aside, auto&) {
             const auto gone = [&](int species, std::uint32_t id) {
-                return species == 0 && !std::binary_search(ids.begin(), ids.end(), id);
+                return species == 0 && std::binary_search(ids.begin(), ids.end(), id);
             };
             aside.forget([&](std::uint32_t i, std::uint32_t j) { return gone(s(), i) || gone(q(), j); });
         });
@@ -500,6 +506,20 @@ public:
             });
         }
         return ranks().all(total, agree::Sum{}).value();
+    }
+    /// Which of the mobile particles are meant, of others' too: theirs from n + 1. Lists must be current.
+    [[nodiscard]] std::vector<char> with_foreign(std::vector<char> is) const
+    {
+        if constexpr (!alone) {
+            auto& parts = const_cast<Parts&>(parts_); // messages are no state
+            const std::size_t n = is.size();
+            is.resize(n + 1 + parts_.foreign(0).places.size, 0);
+            parts.send(
+                0, 1, [&](std::int32_t i, PairT* to) { *to = PairT(is[std::size_t(i)]); },
+                [&is, n](std::int32_t i, PairT const* from) { is[n + 1 + std::size_t(i)] = char(*from); });
+            parts.finish(0);
+        }
+        return is;
     }
     /// What a mobile particle stores in walls that it touches, wall_energy(i) of a term [J].
     [[nodiscard]] double wall_energy_of(std::size_t i) const
@@ -814,11 +834,13 @@ private:
         });
         return ranks().all(total, agree::Sum{}).value();
     }
-    /// The mobile particle behind a record other than the sentinel; of others' there is none: n.
+    /// The mobile particle behind a record other than the sentinel; others' particles are numbered from n + 1.
     std::size_t particle_of(std::size_t j) const
     {
         auto const& of = species<0>().bins.images().of;
         const std::size_t n = mobile().size();
+        if constexpr (!alone)
+            if (j >= std::size_t(parts_.foreign(0).first)) return n + 1 + parts_.foreign(0).number_of(j);
         return j < n ? j : j - n - 1 < of.size() ? std::size_t(of[j - n - 1]) : n;
     }
     /// Of the mobile particle behind a record other than the sentinel, as it is now.
