@@ -196,10 +196,12 @@ TEST(LongGas, OfInelasticDiscsCoolsByHaff)
     auto elastic = gas(32, fraction); // its velocities mix first: the law is for a Maxwellian
     elastic.run({.until = 1.5, .dt = 8e-5});
     auto& p = sim.particles();
+    const Vec<2, double> drift =
+        (1 / (m * double(p.size()))) * momentum<2>(elastic); // cools no more than the box moves
     for (std::size_t i = 0; i < p.size(); ++i) {
         const std::size_t from = index_of(elastic, p.id()[i]);
         p.put(position, i, elastic.particles().at(position, from)),
-            p.put(velocity, i, elastic.particles().at(velocity, from));
+            p.put(velocity, i, elastic.particles().at(velocity, from) - drift);
     }
     sim.prepare();
     auto temperature = [&] {

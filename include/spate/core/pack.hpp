@@ -181,6 +181,11 @@ template <class B>
 [[gnu::always_inline]] inline Lanes<B> sqrt(Lanes<B> const& a)
 {
     if constexpr (std::is_arithmetic_v<B>) return std::sqrt(a.b);
+#if defined(__AVX512F__)
+    // Not _mm512_sqrt_pd: in g++ it merges into an undefined value, so that no two roots of a number are the same one and
+    // none is moved out of a loop.
+    else if constexpr (std::same_as<B, xsimd::batch<double>>) return B(_mm512_maskz_sqrt_pd(__mmask8(-1), a.b));
+#endif
     else return xsimd::sqrt(a.b);
 }
 [[gnu::always_inline]] inline bool any(bool m) { return m; }

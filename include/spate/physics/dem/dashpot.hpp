@@ -26,22 +26,34 @@ struct DashpotOn {
     Spring spring;
     double zeta; ///< damping over the critical [-]
     Tail tail;
+    double rate = rate_of(spring, zeta); ///< 2 zeta sqrt(k) of a constant k: a root less in the loop
 
-    /// c [N s/m], for a stiffness [N/m]: of this spring, or of one beside it.
-    [[gnu::always_inline]] auto damping(auto const& i, auto const& j, auto const& stiffness) const
+    /// c [N s/m].
+    [[gnu::always_inline]] auto damping(auto const& i, auto const& j, auto const& ij) const
+    {
+        if constexpr (requires { spring.k; }) return rate * sqrt(reduced(i[mass], j[mass]));
+        else return damping(i, j, ij, spring.stiffness(i, j, ij));
+    }
+    /// Of a spring of another stiffness beside it.
+    [[gnu::always_inline]] auto damping(auto const& i, auto const& j, auto const&, auto const& stiffness) const
     {
         return 2 * zeta * sqrt(stiffness * reduced(i[mass], j[mass]));
+    }
+    static double rate_of(Spring const& s, double zeta)
+    {
+        if constexpr (requires { s.k; }) return 2 * zeta * std::sqrt(s.k);
+        else return 0;
     }
     [[gnu::always_inline]] auto force(auto const& i, auto const& j, auto const& ij) const
     {
         using V = typename std::remove_cvref_t<decltype(ij)>::value;
-        const V f = V(0) - damping(i, j, spring.stiffness(i, j, ij)) * parting(i, j, ij);
+        const V f = V(0) - damping(i, j, ij) * parting(i, j, ij);
         return tail == Tail::pulls ? f : V(max(f, V(0) - spring.force(i, j, ij)));
     }
     [[gnu::always_inline]] void operator()(auto& i, auto const& j, auto const& ij) const
     {
         const auto f = force(i, j, ij);
-        i[acceleration] += (f / i[mass]) * ij.n;
+        i[acceleration] += (1 / i[mass] * f) * ij.n;
         detail::lose<Counted>(
             i, ij, [&]() __attribute__((always_inline)) { return (0 - f) * parting(i, j, ij); });
     }

@@ -36,7 +36,7 @@ struct FrictionOn {
         const auto xi = turned(ij.n, value(i[tangential_spring])) + i[elapsed] * u;
         const auto s = Sliding(
             mu * law.force(i, j, ij), k * xi, u, [&]() __attribute__((always_inline)) {
-                if constexpr (Law::damped) return loss * law.damping(i, j, k_n);
+                if constexpr (Law::damped) return loss * law.damping(i, j, ij);
                 else return NoDamping{};
             });
         i[tangential_spring] = s.yields * xi;

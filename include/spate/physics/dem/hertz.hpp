@@ -88,7 +88,7 @@ struct Hertz {
     }
     void operator()(auto& i, auto const& j, auto const& ij) const
     {
-        i[acceleration] += (force(i, j, ij) / i[mass]) * ij.n;
+        i[acceleration] += (1 / i[mass] * force(i, j, ij)) * ij.n;
     }
 };
 

@@ -39,7 +39,7 @@ struct LinearSpring {
 
     void operator()(auto& i, auto const&, auto const& ij) const
     {
-        i[acceleration] += (k * ij.overlap / i[mass]) * ij.n;
+        i[acceleration] += (k / i[mass] * ij.overlap) * ij.n;
     }
 };
 

@@ -33,7 +33,7 @@ struct MindlinOn {
         const auto t = turned(ij.n, value(i[tangential_force])) + (k * i[elapsed]) * u;
         const auto s = Sliding(
             mu * law.force(i, j, ij), t, u, [&]() __attribute__((always_inline)) {
-                if constexpr (Law::damped) return law.damping(i, j, k);
+                if constexpr (Law::damped) return law.damping(i, j, ij, k);
                 else return NoDamping{};
             });
         i[tangential_force] = s.yields * t;

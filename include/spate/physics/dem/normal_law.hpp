@@ -12,7 +12,7 @@
 namespace spate {
 
 /// A term with force(i, j, ij) [N] along n. A spring has stiffness(i, j, ij) [N/m] and stores energy; a dashpot has
-/// damping(i, j, stiffness) [N s/m].
+/// damping(i, j, ij) [N s/m].
 template <class T>
 inline constexpr bool is_normal = requires
 {
@@ -46,15 +46,15 @@ struct NormalLaw {
         }
         (std::make_index_sequence<sizeof...(T)>{});
     }
-    /// Of the dashpot, for a spring of the given stiffness beside its own [N s/m].
-    [[gnu::always_inline]] auto damping(auto const& i, auto const& j, auto const& stiffness) const requires(damped)
+    /// Of the dashpot; or of one like it for a spring of another stiffness [N s/m].
+    [[gnu::always_inline]] auto damping(auto const&... of) const requires(damped)
     {
         constexpr std::size_t at = [] {
             std::size_t k = 0, found = 0;
             ((found = is_dashpot<T> ? k : found, ++k), ...);
             return found;
         }();
-        return std::get<at>(terms).damping(i, j, stiffness);
+        return std::get<at>(terms).damping(of...);
     }
 };
 

@@ -37,7 +37,7 @@ struct RollingResistanceOn {
         const auto rho = turned(ij.n, value(i[rolling_spring])) + i[elapsed] * u;
         const auto s = Sliding(
             mu * law.force(i, j, ij), k * rho, u, [&]() __attribute__((always_inline)) {
-                if constexpr (Law::damped) return loss * law.damping(i, j, k_n);
+                if constexpr (Law::damped) return loss * law.damping(i, j, ij);
                 else return NoDamping{};
             });
         i[rolling_spring] = s.yields * rho;
