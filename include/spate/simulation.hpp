@@ -415,9 +415,11 @@ public:
         f("energy_reference", r.energy_reference), f("kinetic_start", r.start.kinetic);
         f("potential_start", r.start.potential), f("internal_start", r.start.internal);
         f("written_energy", self.written_energy_), f("exchanged_moment", self.exchanged_.moment);
+        f("came_at_start", self.came_at_start_);
         for (auto* a : {&self.exchanged_.entered, &self.exchanged_.left}) {
             const std::string side = a == &self.exchanged_.left ? "left_" : "entered_";
             f(side + "particles", a->particles), f(side + "mass", a->mass), f(side + "energy", a->energy);
+            f(side + "dissipated", a->dissipated);
             for (int c = 0; c < dim; ++c) f(along_axis(side + "momentum", c), a->momentum[c]);
         }
         Engine::numbers_of(self.system_, f);

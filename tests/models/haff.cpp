@@ -61,10 +61,11 @@ TEST(LongHaff, AGranularGasCoolsWithTheSquareOfTime)
             T[std::size_t(row)] += sim.energy().kinetic / (start * gases);
         }
     }
+    auto table = models::results("haff.csv", "t_over_tau,T_over_T0,law");
     double worst = 0;
     for (int row = 0; row <= rows; ++row) {
         const double s = 5.0 * row / rows, law = 1 / ((1 + s) * (1 + s));
-        std::printf("t/tau %g T/T0 %.5f law %.5f ratio %.4f\n", s, T[std::size_t(row)], law, T[std::size_t(row)] / law);
+        table << s << ',' << T[std::size_t(row)] << ',' << law << '\n';
         worst = std::max(worst, std::abs(T[std::size_t(row)] / law - 1));
     }
     RecordProperty("worst", std::to_string(worst));

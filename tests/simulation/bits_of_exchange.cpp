@@ -2,6 +2,8 @@
 // Who enters, where and with which id, and who leaves, do not depend on who computes.
 #include "scenes.hpp"
 
+#include "spate/io/resume.hpp"
+
 #include <gtest/gtest.h>
 
 namespace {
@@ -10,17 +12,28 @@ using namespace scenes;
 
 /// Rough grains enter on the left of a periodic channel, collide, and leave on the right.
 template <class Precision = Double, class W = Watch, class Backend>
-Outcome channel(Backend backend, std::int64_t piece = 1 << 30)
+auto channel_with(Backend backend)
 {
-    constexpr double r = 0.01;
-    Simulation sim(dem<2>({.mass = 0.1, .radius = r}, LinearSpring{.k = 1e5}, Dashpot{.e = 0.9}, Friction{.mu = 0.5},
+    Simulation sim(dem<2>({.mass = 0.1, .radius = 0.01}, LinearSpring{.k = 1e5}, Dashpot{.e = 0.9}, Friction{.mu = 0.5},
                           Gravity<2>{{0, -9.81}}),
                    Leapfrog{}, Periodic(Box<2>{{}, {{1, 0.5}}}, open(left, right)), backend, Precision{}, W{});
     for (int n = 0; n < 20; ++n) sim.add({{0.5 + 0.001 * n, 0.01 + n * 0.024}});
-    Pour pour(Box<2>{{{0.02, 0}}, {{0.3, 0.5}}}, {.rate = 2000, .seed = 4}, [](auto& p, std::size_t i, Draw& draw) {
+    return sim;
+}
+auto source()
+{
+    return Pour(Box<2>{{{0.02, 0}}, {{0.3, 0.5}}}, {.rate = 2000, .seed = 4}, [](auto& p, std::size_t i, Draw& draw) {
         p.put(velocity, i, {{2 * draw(), draw() - 0.5}});
     });
-    Outlet end(HalfSpace<2>{{{0.8, 0}}, {{-1, -0.1}}});
+}
+auto sink() { return Outlet(HalfSpace<2>{{{0.8, 0}}, {{-1, -0.1}}}); }
+
+template <class Precision = Double, class W = Watch, class Backend>
+Outcome channel(Backend backend, std::int64_t piece = 1 << 30)
+{
+    auto sim = channel_with<Precision, W>(backend);
+    auto pour = source();
+    auto end = sink();
     constexpr std::int64_t steps = 4000;
     while (sim.steps() < steps) sim.run({.steps = std::min(piece, steps - sim.steps()), .dt = 2e-4}, pour, end);
     EXPECT_GT(pour.particles(), 500);
@@ -64,6 +77,21 @@ TEST(BitsOfExchange, OfAChannelDoNotDependOnPiecesPacksOrWatch)
     EXPECT_EQ(channel(Serial{}, 37).hash, of_channel().hash);
     EXPECT_EQ((channel<ScalarOf<Double>>(Serial{}).hash), of_channel().hash);
     EXPECT_EQ((channel<Double, NoWatch>(Serial{}).hash), of_channel().hash);
+}
+// Another scene, filled as at the start, goes on where the first was after 1700 steps.
+TEST(BitsOfExchange, OfAChannelAreThoseOfOneThatGoesOn)
+{
+    auto first = channel_with(Serial{});
+    auto pour = source();
+    auto end = sink();
+    first.run({.steps = 1700, .dt = 2e-4}, pour, end);
+    const auto state = io::state_of(first, pour, end);
+    auto second = channel_with(Threads{2, 3});
+    auto again = source();
+    auto sink_again = sink();
+    io::resume(second, state, again, sink_again);
+    second.run({.steps = 2300, .dt = 2e-4}, again, sink_again);
+    EXPECT_EQ(second.state_hash() + std::uint64_t(sink_again.particles()), of_channel().hash);
 }
 TEST(BitsOfExchange, OfASpillDoNotDependOnThreads)
 {

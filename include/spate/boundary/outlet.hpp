@@ -61,12 +61,8 @@ public:
     [[nodiscard]] std::int64_t particles() const { return particles_; }
     [[nodiscard]] double mass() const { return mass_; }
 
-    /// f(name, number) for what a run that goes on must know.
-    template <class Self>
-    static void numbers_of(Self& self, auto const& f)
-    {
-        f("particles", self.particles_), f("mass", self.mass_);
-    }
+    /// f(name, number) for what a run that goes on must know: see io/resume.hpp.
+    void notes(auto const& f) { f("outlet_particles", particles_), f("outlet_mass", mass_); }
 
 private:
     Region region_;

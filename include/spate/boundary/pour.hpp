@@ -90,12 +90,8 @@ public:
     /// How many were due at the last look and found no room.
     [[nodiscard]] std::int64_t waiting() const { return waiting_; }
 
-    /// f(name, number) for what a run that goes on must know.
-    template <class Self>
-    static void numbers_of(Self& self, auto const& f)
-    {
-        f("particles", self.entered_), f("waiting", self.waiting_), f("tried", self.tried_);
-    }
+    /// f(name, number) for what a run that goes on must know: see io/resume.hpp.
+    void notes(auto const& f) { f("pour_particles", entered_), f("pour_waiting", waiting_), f("pour_tried", tried_); }
 
 private:
     struct Ball {
