@@ -161,7 +161,20 @@ fi
 
 # Threads that wait must not spin: another program may need the core.
 export OMP_WAIT_POLICY=${OMP_WAIT_POLICY-passive}
-[[ $help == yes ]] || exec "$binary" "${passed[@]}"
+# Processes are started here, unless mpirun or srun has started this script.
+start=("$binary")
+if [[ ${value[--backend]-} == mpi && $help == no && -z ${OMPI_COMM_WORLD_SIZE-}${PMI_SIZE-}${SLURM_STEP_ID-} ]]; then
+    ranks=$(nproc)
+    for ((k = 0; k < ${#passed[@]}; ++k)); do
+        case ${passed[k]} in
+            --ranks) ranks=${passed[k + 1]-} ;;
+            --ranks=*) ranks=${passed[k]#*=} ;;
+        esac
+    done
+    [[ $ranks =~ ^[1-9][0-9]*$ ]] || fail "--ranks cannot be '$ranks'; a whole number, 1 or above"
+    start=(bash "$root/tools/mpirun.sh" "$ranks" "$binary")
+fi
+[[ $help == yes ]] || exec "${start[@]}" "${passed[@]}"
 
 "$binary" "${passed[@]}"
 if ((${#options[@]})); then

@@ -8,7 +8,7 @@ using namespace spate;
 int main(int argc, char** argv)
 {
     example::Example example("still_water", "Water at rest in an open tank.",
-                             {.until = 4, .cfl = 0.2, .every = 0.1, .history_every = 0.02});
+                             {.until = 4, .cfl = 0.2, .every = 0.1, .history_every = 0.02, .colour = "pressure"});
     auto const& o = example.options();
 
     return example.main(argc, argv, [&] {

@@ -29,6 +29,12 @@
 #ifndef SPATE_BACKEND
 #define SPATE_BACKEND Threads
 #endif
+#define SPATE_ONE_WORD_OF(a, b) a##b
+#define SPATE_ONE_WORD(a, b) SPATE_ONE_WORD_OF(a, b)
+#define SPATE_USES_Mpi 1
+#if SPATE_ONE_WORD(SPATE_USES_, SPATE_BACKEND)
+#include <spate/backend/mpi.hpp>
+#endif
 
 namespace scene {
 
@@ -37,7 +43,14 @@ using Kernel = spate::SPATE_KERNEL<dim>;
 using Integrator = spate::SPATE_INTEGRATOR;
 using Precision = spate::SPATE_PRECISION;
 inline constexpr auto wall = spate::SPATE_WALL;
+#if SPATE_ONE_WORD(SPATE_USES_, SPATE_BACKEND)
+using Backend = spate::Mpi<spate::Threads>;
+#else
 using Backend = spate::SPATE_BACKEND;
+#endif
+#undef SPATE_USES_Mpi
+#undef SPATE_ONE_WORD
+#undef SPATE_ONE_WORD_OF
 
 #define SPATE_TEXT_OF(...) #__VA_ARGS__
 #define SPATE_TEXT(...) SPATE_TEXT_OF(__VA_ARGS__)
@@ -61,6 +74,8 @@ template <class B = Backend>
 B backend(int threads, int cell)
 {
     if constexpr (requires(B b) { b.count; }) return {.count = threads, .cell = cell};
+    else if constexpr (requires(B b) { b.local.count; }) // one thread a process, unless more are asked for
+        return {.local = {.count = threads == 0 ? 1 : threads}, .cell = cell};
     else {
         spate::require(threads == 0 || threads == 1, "threads", threads, "0 or 1 with this backend");
         return {.cell = cell};

@@ -21,6 +21,7 @@
 #include "support/composition.hpp"
 #include "support/frame.hpp"
 #include "support/interrupt.hpp"
+#include "support/passive.hpp"
 #include "support/pictures.hpp"
 #include "support/snapshots.hpp"
 #include "support/summary.hpp"
@@ -32,24 +33,43 @@ class Example : public Frame {
 public:
     using Frame::Frame;
 
+    int main(int argc, char** argv, std::function<void()> const& scene)
+    {
+        if constexpr (!many) return Frame::main(argc, argv, scene);
+        else {
+            wait_passively(argv); // it may start the program again: before MPI
+            speaks_ = scene::Backend{}.ranks().rank() == 0;
+            return Frame::main(argc, argv, scene);
+        }
+    }
     /// Runs a scene to its end with history (its columns the given measures), snapshots, pictures and summary.
     template <class Scene, class... Measure>
     [[gnu::cold]] void run(Scene& scene, Measure... measure)
     {
         const std::filesystem::path directory = options_.output;
         spate::io::History history(directory, options_.history_every, measure...);
-        Pictures pictures(directory, name_, options_.picture_every);
+        Pictures pictures(directory, name_, options_.picture_every, options_.colour);
         spate::require_non_negative("every", options_.every, "s");
         spate::RunOptions how{.until = options_.until, .steps = options_.steps, .cfl = options_.cfl, .dt = options_.dt};
         scene.check(how);
-        require_writable(directory);
+        const auto ranks = spate::party_of(scene);
+        if constexpr (many)
+            spate::require(options_.ranks == 0 || options_.ranks == ranks.count(), "ranks", options_.ranks,
+                           "0, or " + std::to_string(ranks.count()) + ", as many as have been started");
+        options_.quiet = options_.quiet || !speaks_;
+        spate::by_one(ranks, [&] { require_writable(directory); });
         Snapshots snapshots(Series(directory, name_), options_.every);
         Summary& summary = summary_;
         summary.energy_start = scene.energy().total();
         Checkpoints<decltype(history), Snapshots, Pictures, Summary> checkpoints(
             {}, directory, keep_every(options_.checkpoint_every), history, snapshots, pictures, summary);
-        Talk talk{.quiet = options_.quiet};
-        if (!options_.restart.empty()) checkpoints.restart(scene, options_.restart);
+        Talk talk{.quiet = options_.quiet, .speaks = speaks_};
+        if constexpr (!many) {
+            if (!options_.restart.empty()) checkpoints.restart(scene, options_.restart);
+        }
+        else
+            spate::require(options_.restart.empty() && options_.checkpoint_every == "0", "ranks", ranks.count(),
+                           "none with --restart and --checkpoint-every: checkpoints are of one process so far");
         how.steps = std::max(std::int64_t(0), options_.steps - scene.steps());
         about(scene);
         spate::io::Progress progress(options_.until, how.steps, spate::io::Progress::usual(options_.quiet));
@@ -60,12 +80,16 @@ public:
         talk.opening(summary);
         if (!options_.restart.empty()) talk.going_on(options_.restart, scene.steps(), scene.time());
         try {
-            scene.run(how, history, snapshots, pictures, talk, progress, checkpoints);
+            if constexpr (many) scene.run(how, history, snapshots, pictures, talk, progress);
+            else scene.run(how, history, snapshots, pictures, talk, progress, checkpoints);
             if (interrupt() != 0) interrupted(summary, scene.steps(), scene.time(), checkpoints.last());
         }
         catch (spate::Stop const& e) {
             summary.stop = e.name(), summary.stop_message = e.what(), summary.stop_facts = e.facts();
             code_ = 3;
+        }
+        catch (spate::OtherRankFailed const&) {
+            code_ = 4;
         }
         catch (spate::OutputError const& e) {
             summary.stop = "OutputError", summary.stop_message = e.what();
@@ -78,6 +102,8 @@ public:
     }
 
 private:
+    static constexpr bool many = requires(scene::Backend b) { b.ranks(); };
+
     template <class Scene>
     [[gnu::cold]] static void about_species(Scene const& scene, Summary& s)
     {
@@ -89,7 +115,7 @@ private:
             s.add_species(k() != 0 ? "wall"
                           : fluid  ? "fluid"
                                    : "grain",
-                          scene.system().template species<k()>().particles.size(), words);
+                          scene.system().template total_of<k()>(), words);
         });
     }
     template <class Scene>
@@ -111,6 +137,7 @@ private:
         if constexpr (Engine::species_count == 2) s.add_choice("walls", scene::wall_text);
         std::apply([&](auto const&... t) { (s.terms.push_back(name(t)), ...); }, sim.system().terms());
         s.threads = sim.system().backend().threads();
+        s.ranks = sim.system().ranks().count();
         s.seed = options_.seed;
     }
     /// The columns that history.csv ends with.
@@ -135,7 +162,8 @@ private:
         auto const& r = scene.report();
         s.steps = scene.steps(), s.time = scene.time();
         s.force_evaluations = scene.system().evaluations(), s.pairs = scene.system().pairs_evaluated();
-        s.wall = r.wall, s.cpu = r.cpu, s.bytes = scene.system().bytes();
+        s.wall = r.wall, s.cpu = r.cpu,
+        s.bytes = scene.system().ranks().all(scene.system().bytes(), spate::agree::Sum{});
         s.mach = r.mach, s.density_change = r.density_change;
         s.energy_end = scene.energy().total(), s.energy_reference = r.energy_reference;
         s.state_hash = scene.state_hash();

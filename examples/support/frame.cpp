@@ -7,7 +7,7 @@
 #include <iostream>
 #include <numbers>
 
-#include <spate/core/errors.hpp>
+#include <spate/core/together.hpp>
 #include <spate/io/detail/replace_file.hpp>
 
 #include "support/interrupt.hpp"
@@ -41,11 +41,14 @@ int Frame::main(int argc, char** argv, std::function<void()> const& scene)
         return e.code;
     }
     catch (spate::OutputError const& e) {
-        std::cerr << e.what() << '\n';
+        if (speaks_) std::cerr << e.what() << '\n';
+        return 4;
+    }
+    catch (spate::OtherRankFailed const&) { // which says itself why
         return 4;
     }
     catch (std::invalid_argument const& e) { // BadInput, and what the writers refuse
-        std::cerr << e.what() << '\n';
+        if (speaks_) std::cerr << e.what() << '\n';
         return 2;
     }
     catch (std::bad_alloc const&) {
@@ -84,6 +87,7 @@ void Frame::interrupted(Summary& s, std::int64_t step, double time, std::filesys
 void Frame::ended(Summary const& s, Talk const& talk, std::filesystem::path const& directory,
                   std::filesystem::path const& picture) const
 {
+    if (!speaks_) return;
     if (code_ != 0) std::cerr << s.stop_message << '\n';
     s.write(directory / "summary.json");
     talk.closing(s, directory, picture);
@@ -98,6 +102,7 @@ void Frame::Talk::opening(Summary const& s) const
     std::printf("%s: %s = %zu particles\n", s.scene.c_str(), of.c_str(), s.total());
     for (auto const& [role, name] : s.composition) std::printf("  %-12s %s\n", role.c_str(), name.c_str());
     std::printf("  %-12s %d\n", "threads", s.threads);
+    if (s.ranks > 1) std::printf("  %-12s %d\n", "ranks", s.ranks);
     std::fflush(stdout);
 }
 
@@ -130,7 +135,7 @@ void Frame::Talk::contact(char const* integrator, double omega, double dt, doubl
 
 void Frame::Talk::warn(std::vector<std::string> const& all)
 {
-    for (; told < all.size(); ++told) std::cerr << "warning: " << all[told] << '\n';
+    for (; speaks && told < all.size(); ++told) std::cerr << "warning: " << all[told] << '\n';
 }
 
 void Frame::Talk::closing(Summary const& s, std::filesystem::path const& directory,

@@ -36,6 +36,7 @@ protected:
     /// What is printed on standard output.
     struct Talk {
         bool quiet;
+        bool speaks = true;   ///< one rank does
         std::size_t told = 0; ///< warnings
 
         void opening(Summary const& s) const;
@@ -68,6 +69,7 @@ protected:
     CommandLine line_;
     Summary summary_;
     int code_ = 0;
+    bool speaks_ = true; ///< for all ranks
 };
 
 } // namespace example

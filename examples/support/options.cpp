@@ -32,6 +32,7 @@ CommandLine::CommandLine(std::string const& name, std::string const& about, Opti
     with_unit(app.add_option("--cfl", o.cfl, "factor of the time-step criteria"), "[-]");
     with_unit(app.add_option("--dt", o.dt, "fixed time step; 0: by the criteria"), "[s]");
     with_unit(app.add_option("--threads", o.threads, "threads; 0: as many as there are"), "N");
+    with_unit(app.add_option("--ranks", o.ranks, "processes, with --backend mpi; 0: as many as there are"), "N");
     with_unit(app.add_option("--cell", o.cell, "ranges along the edge of a cell, 1 to 32; 0: by dimension"), "M");
     app.add_option("--output", o.output, "directory of the results")->type_name("DIR")->default_str(o.output);
     with_unit(app.add_option("--every", o.every, "between two snapshots; 0: the last state only"), "[s]");
@@ -46,6 +47,7 @@ CommandLine::CommandLine(std::string const& name, std::string const& about, Opti
         ->type_name("N|T")
         ->capture_default_str();
     app.add_option("--restart", o.restart, "go on from this checkpoint of the same scene")->type_name("FILE");
+    choice("--colour", o.colour, {"speed", "pressure"}, "of the particles in pictures");
     app.add_flag("--quiet", o.quiet, "print nothing but errors");
 }
 CommandLine::~CommandLine() = default;

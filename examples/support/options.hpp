@@ -23,11 +23,13 @@ struct Options {
     double history_every = 0;                                      ///< between rows of history.csv [s]; 0: each step
     double picture_every = 0;                                      ///< between pictures [s]; 0: the last state only
     int threads = 0;                                               ///< 0: as many as there are
+    int ranks = 0;                                                 ///< processes; 0: as many as mpirun has started
     int cell = 0;                                                  ///< ranges along a cell's edge; 0: by dimension
     std::uint64_t seed = 1;                                        ///< of random numbers
     std::string output = {};                                       ///< directory; empty: out/NAME
     std::string checkpoint_every = "0";                            ///< steps, or a time by the clock: 500, 600s, 2h
     std::string restart = {};                                      ///< checkpoint to go on from; empty: none
+    std::string colour = "speed";                                  ///< of pictures: speed or pressure
     bool quiet = false;
 };
 

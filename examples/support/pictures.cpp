@@ -8,8 +8,9 @@
 
 namespace example {
 
-Pictures::Pictures(std::filesystem::path directory, std::string name, double every)
-    : directory_(std::move(directory)), name_(std::move(name)), interval_(every), every_(every)
+Pictures::Pictures(std::filesystem::path directory, std::string name, double every, std::string const& colour)
+    : directory_(std::move(directory)), name_(std::move(name)), interval_(every), every_(every),
+      by_pressure_(colour == "pressure")
 {
     spate::require_non_negative("picture-every", every, "s");
 }
@@ -30,11 +31,10 @@ void Pictures::write(std::filesystem::path const& file, double time, int dim, do
     std::array<char, 80> title{};
     std::snprintf(title.data(), title.size(), "%.40s   t = %.3f s", name_.c_str(), time);
     picture.title = title.data();
-    picture.value_name = "speed";
-    picture.unit = "m/s";
+    picture.value_name = by_pressure_ ? "pressure" : "speed";
+    picture.unit = by_pressure_ ? "Pa" : "m/s";
     picture.dim = dim < 3 ? 2 : 3;
-    picture.value_min = 0;
-    picture.value_max = fastest;
+    if (!by_pressure_) picture.value_min = 0, picture.value_max = fastest;
     spate::io::write_png(file, picture, balls);
 }
 

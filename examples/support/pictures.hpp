@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// \brief Pictures of a run: particles to scale, coloured by speed, wall markers as a ghost.
+/// \brief Pictures of a run: particles to scale, coloured by speed or by pressure, wall markers as a ghost.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <spate/core/together.hpp>
 #include <spate/io/ball.hpp>
 #include <spate/io/detail/every.hpp>
 #include <spate/physics/wcsph.hpp>
@@ -19,14 +20,19 @@ namespace example {
 /// An output of Simulation::run: NAME.png of the last state and, if asked for, NAME_000001.png, ... on the way.
 class Pictures {
 public:
-    Pictures(std::filesystem::path directory, std::string name, double every);
+    Pictures(std::filesystem::path directory, std::string name, double every, std::string const& colour);
     void begin(auto& scene) { step(scene); }
     void step(auto& scene)
     {
         if (interval_ <= 0 || !every_.due(scene.time())) return;
+        if (by_pressure_) scene.refresh();
         draw(scene, numbered());
     }
-    void end(auto& scene) { draw(scene, file()); }
+    void end(auto& scene)
+    {
+        if (by_pressure_) scene.refresh();
+        draw(scene, file());
+    }
     [[nodiscard]] std::filesystem::path file() const;
     /// What a restart needs: f(name, number).
     void notes(auto const& f)
@@ -52,7 +58,7 @@ private:
         else return scene.physics().interaction.range() / 4;
     }
     template <class Scene>
-    [[gnu::cold]] static std::vector<spate::io::Ball> balls_of(Scene const& scene)
+    [[gnu::cold]] std::vector<spate::io::Ball> balls_of(Scene const& scene) const
     {
         std::vector<spate::io::Ball> balls;
         scene.system().each_species([&](auto s) {
@@ -62,10 +68,12 @@ private:
                 const auto x = p.at(spate::position, i);
                 for (int c = 0; c < Scene::dim; ++c) ball.x[c] = float(x[c]);
                 if constexpr (s() == 0) ball.value = float(std::sqrt(p.at(spate::velocity, i).squaredNorm()));
+                if constexpr (s() == 0 && std::remove_cvref_t<decltype(p)>::template has<spate::Pressure>)
+                    if (by_pressure_) ball.value = float(p.at(spate::pressure, i));
                 balls.push_back(ball);
             }
         });
-        return balls;
+        return gathered(spate::party_of(scene), std::move(balls));
     }
     template <class Scene>
     [[gnu::cold]] void draw(Scene const& scene, std::filesystem::path const& file) const
@@ -73,7 +81,8 @@ private:
         double fastest = spate::io::Picture::automatic; // [m/s]
         if constexpr (spate::has_equation_of_state<std::remove_cvref_t<decltype(scene.physics())>>)
             fastest = spate::equation_of_state(scene.physics()).c0 / 10; // the flow that c0 was chosen for
-        write(file, scene.time(), Scene::dim, fastest, balls_of(scene));
+        const auto balls = balls_of(scene);
+        spate::by_one(spate::party_of(scene), [&] { write(file, scene.time(), Scene::dim, fastest, balls); });
     }
     /// NAME_000001.png, ...
     std::filesystem::path numbered();
@@ -85,6 +94,7 @@ private:
     std::string name_;
     double interval_; ///< [s]
     spate::io::detail::Every every_;
+    bool by_pressure_;
     int count_ = 0;
 };
 

@@ -17,6 +17,7 @@
 #include "spate/physics/system.hpp"
 #include "spate/physics/time_step.hpp"
 
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <numbers>
@@ -115,6 +116,12 @@ public:
         std::size_t count = 1;
         for (auto k : n) count *= std::size_t(k);
         std::vector<Point> at;
+        // Each rank begins a part, unless the user's own start may count on all of them.
+        bool a_part = false;
+        if constexpr (!Engine::alone && (at_rest<Start> || std::same_as<Start, std::nullptr_t>))
+            a_part = system_.template owns_all<0>();
+        std::vector<std::uint32_t> numbers;
+        std::size_t placed = 0;
         for (std::size_t k = 0; k < count; ++k) {
             Point x;
             std::size_t rest = k;
@@ -125,16 +132,23 @@ public:
             }
             if constexpr (requires { system_.boundary().covers(x); })
                 if (system_.boundary().covers(x)) continue;
+            const std::size_t number = placed++;
+            if (a_part) {
+                if (!system_.starts_here(number)) continue;
+                numbers.push_back(std::uint32_t(number));
+            }
             at.push_back(x);
         }
-        p.resize(first + at.size());
+        if constexpr (Engine::alone) p.resize(first + at.size());
+        else if (a_part) system_.template adopt<0>(std::move(numbers), placed);
+        else p.resize(first + at.size());
         for (std::size_t k = 0; k < at.size(); ++k) {
             p.put(position, first + k, at[k]);
             begin(p, first + k, box, start);
         }
         if constexpr (Engine::species_count == 2) wet_markers(box, start);
         prepare();
-        return at.size();
+        return placed;
     }
     template <int Other, class... Start>
     std::size_t fill(Box<Other> const&, double, Start...)
@@ -275,16 +289,18 @@ public:
         look(e);
         choose_dt(o, e);
         if constexpr (Engine::M::moves) e |= move_markers(dt_);
+        bool outrun = false;
         if (stale(e)) {
             if constexpr (W::on) look_outside();
             rebuild();
             if (stale(e.unmoved())) rebuild(true);
             if (stale(e.unmoved()) && o.dt <= 0) shorten(e.unmoved());
-            if (stale(e.unmoved())) stop_outrun(e.unmoved());
+            outrun = stale(e.unmoved());
         }
+        if constexpr (W::on) look_at_way(e);
+        if (outrun) stop_outrun(e.unmoved());
         if constexpr (W::on) {
             if (step_ == 0) look_at_start();
-            look_at_way(e);
             if (step_ % watch_.energy_every == 0) look_at_energy();
             keep_step();
         }
@@ -609,9 +625,16 @@ private:
             auto& p = system_.template species<1>().particles;
             std::vector<Point> x;
             std::vector<int> of;
-            system_.boundary().place(physics().interaction.range(),
-                                     [&](Point const& at, int k = 0) { x.push_back(at), of.push_back(k); });
-            p.resize(x.size());
+            std::vector<std::uint32_t> numbers;
+            std::size_t placed = 0;
+            system_.boundary().place(physics().interaction.range(), [&](Point const& at, int k = 0) {
+                const std::size_t number = placed++;
+                if (!system_.starts_here(number)) return;
+                x.push_back(at), of.push_back(k);
+                if constexpr (!Engine::alone) numbers.push_back(std::uint32_t(number));
+            });
+            if constexpr (Engine::alone) p.resize(x.size());
+            else system_.template adopt<1>(std::move(numbers), placed);
             for (std::size_t i = 0; i < x.size(); ++i) {
                 p.put(position, i, x[i]);
                 if constexpr (Engine::M::moves) p.put(rest_position, i, x[i]), p.put(part, i, of[i]);
@@ -732,15 +755,13 @@ private:
             throw BadInput("position of particle " + std::to_string(p.id()[i]),
                            text(system_.boundary().template beyond<dim>(p.at(position, i))) + " m beyond a wall",
                            "inside the walls");
-        // Where places are rounded by a hundredth of the length that forces vary over, forces are noise.
-        const double rounding = std::numeric_limits<typename Engine::T>::epsilon() / 2,
-                     length = physics().interaction.length();
+        const double most = system_.farthest(); // beyond, forces are noise
         for (std::size_t k = 0; k < p.size(); ++k)
             for (int c = 0; c < dim; ++c)
-                require(std::abs(p.at(position, k)[c]) * rounding <= 0.01 * length,
-                        "position of particle " + std::to_string(p.id()[k]), p.at(position, k)[c],
-                        "nearer to the origin than " + text(0.01 * length / rounding) +
-                            " m: there it is rounded by a hundredth of the particles' length");
+                require(std::abs(p.at(position, k)[c]) <= most, "position of particle " + std::to_string(p.id()[k]),
+                        p.at(position, k)[c],
+                        "at most " + text(most) +
+                            " m from the origin: there rounding is a hundredth of the particles' length");
         if constexpr (Set<Q::fields>::template contains<Radius> && requires { physics().interaction.largest; })
             for (std::size_t k = first; k < p.size(); ++k)
                 require(p.at(radius, k) <= physics().interaction.largest,
@@ -778,6 +799,12 @@ private:
     [[noreturn, gnu::cold]] void stop_index(StopFacts f) const
     {
         f.step = step_, f.time = time_, f.species = Engine::M::moves ? -1 : 0; // at rest, markers cannot be it
+        auto const& p = system_.mobile();
+        const std::size_t i = detail::first_by_id(p, [&](std::size_t k) { return p.id()[k] == f.particle; });
+        if (f.species == 0 && i < p.size()) {
+            const StopFacts all = detail::facts_of(p, i);
+            std::copy(std::begin(all.velocity), std::end(all.velocity), f.velocity);
+        }
         throw IndexOverflow(f);
     }
     [[gnu::cold]] void begin_run(RunOptions const& o)
@@ -902,19 +929,24 @@ private:
         if constexpr (requires { eos.most_compression; }) return eos.most_compression * eos.rho0;
         else return std::numeric_limits<double>::infinity();
     }
-    /// Pairs that are too near; the smallest radius.
+    /// Pairs that are too near.
     [[gnu::cold]] void look_at_start()
     {
         if constexpr (Engine::any_pairs && Engine::M::planner.meet(0, 0))
             look_at_pairs(system_, watch_.overlap, step_, time_, report_.warnings);
-        if (stiffness_.contact_frequency <= 0) return;
+    }
+    [[gnu::cold]] [[nodiscard]] double least_radius() const
+    {
         auto const& p = system_.mobile();
-        for (std::size_t i = 0; i < p.size(); ++i) least_radius_ = std::min(least_radius_, radius_of(p, i));
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < p.size(); ++i) least = std::min(least, radius_of(p, i));
+        return least;
     }
     /// Contacts begin within what two grains close in by in one step: a tenth of a radius is told, a radius is a stop.
     void look_at_way(Extremes const& e)
     {
         if (stiffness_.contact_frequency <= 0) return;
+        if (step_ == 0) least_radius_ = least_radius();
         const double way = std::min(e.speed * dt_, system_.closing(e.unmoved(), dt_, 0)), r = least_radius_;
         if (way > 0.1 * r && !told_way_) warn_of_way(way);
         if (way > r) stop_way(way);

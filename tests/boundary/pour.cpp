@@ -101,7 +101,7 @@ TEST(Pour, WaitsForRoom)
 TEST(Pour, KeepsOffWalls)
 {
     Simulation sim(dem<2>({.mass = m, .radius = r}, LinearSpring{.k = k}), Leapfrog{},
-                   Walls(Box<2>{{0, 0}, {0.2, 0.2}}, open(top)), Serial{});
+                   Walls(Box<2>{{0, 0}, {0.2, 0.2}}, open(top), contact(LinearSpring{.k = k})), Serial{});
     Pour pour(Box<2>{{0, 0}, {0.2, 0.3}}, {.rate = 1e18, .most = 60, .every = 1, .tries = 100});
     sim.run({.steps = 2, .dt = 1e-12}, pour);
     ASSERT_GT(sim.particles().size(), 30u);
@@ -114,6 +114,7 @@ TEST(Pour, KeepsOffWalls)
         highest = std::max(highest, x[1]);
     }
     EXPECT_GT(highest, 0.2); // the top is open
+    EXPECT_EQ(sim.energy().internal, 0);
 }
 TEST(Pour, GivesWhatTheUserGives)
 {

@@ -25,6 +25,7 @@ void must_compile_dimensions_and_precisions()
 {
     column<1>(Double{});
     column<2>(Float{});
+    column<3>(Mixed{});
     column<3>(Double{});
     column<1>(ScalarOf<Float>{});
     column<2>(ScalarOf<Double>{});

@@ -82,6 +82,7 @@ public:
     }
     void step(auto& s, double dt) const
     {
+        if (integrator != runge_kutta2) s.save(); // as `saves` says
         with([&](auto i) {
             i.step(s, dt);
             return 0;

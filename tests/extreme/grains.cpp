@@ -90,7 +90,7 @@ TEST_P(Grains, X01AChainGrowsAndIsBoundedAsTheoryHasIt)
                 return true;
             };
             if (integrator == chosen::forward_euler || integrator == chosen::runge_kutta2)
-                for (double z : {0.3, 0.8}) {
+                for (double z : in_float() ? std::vector{0.8} : std::vector{0.3, 0.8}) {
                     const std::complex<double> R(1 - (integrator == chosen::runge_kutta2 ? z * z / 2 : 0), z);
                     EXPECT_NEAR(growth(z, 4, 14), std::abs(R) - 1, 0.05 * (std::abs(R) - 1))
                         << chosen::integrators[integrator] << z;
@@ -128,6 +128,7 @@ TEST_P(Grains, X02TheStiffestContactSetsTheStep)
     for (double ratio : {1.0, 1e-4, 1e-8}) {
         auto s = setup();
         s.box = {{{0, 0}}, {{0.2, 0.2}}};
+        s.periodic = true;
         auto scene = make(s);
         std::mt19937_64 random(5);
         std::uniform_real_distribution<double> u(-1, 1);
@@ -150,7 +151,7 @@ TEST_P(Grains, X02AStiffnessOf1e13IsBounded)
     const double gap = in_float() ? 2e-7 : 1e-9; // contact lasts 0.2 us
     scene->add({{0.5 - r - gap, 0.5}}, {{0.5, 0}}, m, r);
     scene->add({{0.5 + r + gap, 0.5}}, {{-0.5, 0}}, m, r);
-    const End end = end_of([&] { scene->run({.until = 2 * gap + 1e-6}); });
+    const End end = end_of([&] { scene->run({.steps = 300}); });
     // The overlap is v/omega = 35 nm, which float rounds by 30 nm at x = 0.5 m: there energy is noise, and the watch says so.
     if (in_float()) {
         EXPECT_THAT(end.name, testing::AnyOf("ok", "EnergyRunaway"));
@@ -215,6 +216,7 @@ TEST_P(Grains, X06TwoThatComeToOnePlaceAreAStop)
         EXPECT_EQ(end.facts.particle, 0);
         EXPECT_EQ(end.facts.other, 1);
         EXPECT_EQ(end.facts.term, "LinearSpring");
+        EXPECT_EQ(end.facts.position[0], one.x[0]);
     }
 }
 // X11: nobody, one, two.

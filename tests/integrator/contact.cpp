@@ -118,6 +118,69 @@ class SymplecticContact : public testing::Test {};
 using Symplectic = testing::Types<SymplecticEuler, Leapfrog>;
 TYPED_TEST_SUITE(SymplecticContact, Symplectic);
 
+// The rest of the table of numerics C.2, to its last digit. Leapfrog and symplectic Euler see a collision alike.
+TEST(Contact, GainsWhatTheTableSays)
+{
+    struct Row {
+        double dt, euler, euler_digit, midpoint, midpoint_digit, furthest, rms, rms_digit;
+    };
+    const Row rows[] = {{1e-4, 1.557, 5e-4, 1.0022, 5e-5, 3.25e-3, 1.8e-3, 5e-5},
+                        {5e-5, 1.2485, 5e-5, 1.0003, 5e-5, 1.25e-3, 7.0e-4, 5e-6},
+                        {2e-5, 1.0929, 5e-5, 1.00002, 5e-6, 5.5e-5, 2.9e-5, 5e-7},
+                        {1e-5, 1.0454, 5e-5, 1.0000, 5e-5, 2.45e-5, 1.4e-5, 5e-7}};
+    for (auto const& row : rows) {
+        EXPECT_NEAR(mean(energy_ratios<ForwardEuler>(row.dt, phases)), row.euler, row.euler_digit) << row.dt;
+        EXPECT_NEAR(mean(energy_ratios<RungeKutta2>(row.dt, phases)), row.midpoint, row.midpoint_digit) << row.dt;
+        for (auto const& e :
+             {energy_ratios<SymplecticEuler>(row.dt, phases), energy_ratios<Leapfrog>(row.dt, phases)}) {
+            double rms = 0, furthest = 0;
+            for (double x : e) rms += (x - 1) * (x - 1) / phases, furthest = std::max(furthest, std::abs(x - 1));
+            EXPECT_NEAR(mean(e), 1, 5e-5) << row.dt;
+            EXPECT_LE(furthest, row.furthest) << row.dt;
+            EXPECT_NEAR(std::sqrt(rms), row.rms, row.rms_digit) << row.dt;
+        }
+    }
+}
+
+/// The same collision by the recurrence of each scheme, written out: overlap d and its rate w.
+template <class I>
+double by_hand(double u, double dt)
+{
+    auto push = [](double d) { return d > 0 ? -omega * omega * d : 0.0; };
+    double d = (u - 1) * speed * dt, w = speed;
+    for (int n = 0; n < 10 || w > 0 || d > 0; ++n) {
+        if constexpr (std::same_as<I, ForwardEuler>) {
+            const double a = push(d);
+            d += dt * w, w += dt * a;
+        }
+        else if constexpr (std::same_as<I, SymplecticEuler>) w += dt * push(d), d += dt * w;
+        else if constexpr (std::same_as<I, Leapfrog>) w += dt / 2 * push(d), d += dt * w, w += dt / 2 * push(d);
+        else {
+            const double half_d = d + dt / 2 * w, half_w = w + dt / 2 * push(d);
+            d += dt * half_w, w += dt * push(half_d);
+        }
+    }
+    return w * w / (speed * speed);
+}
+template <class I>
+void expect_as_by_hand(double dt)
+{
+    const int few = 50;
+    const auto e = energy_ratios<I>(dt, few);
+    for (int n = 0; n < few; ++n)
+        EXPECT_NEAR(e[std::size_t(n)] / by_hand<I>((n + 0.5) / few, dt), 1, 1e-9) << I::name << " at " << dt;
+}
+// At steps that no multiple of the contact time meets.
+TEST(Contact, FollowsTheRecurrenceAtIncommensurateSteps)
+{
+    for (double dt : {7.31e-4, 3.7e-4, 1.234e-4}) {
+        expect_as_by_hand<ForwardEuler>(dt);
+        expect_as_by_hand<SymplecticEuler>(dt);
+        expect_as_by_hand<Leapfrog>(dt);
+        expect_as_by_hand<RungeKutta2>(dt);
+    }
+}
+
 // A resonance: at omega dt = sqrt 2 a step turns the phase by 90 degrees, and every collision gives back its energy.
 TYPED_TEST(SymplecticContact, IsElasticAtTheSeedsStep)
 {

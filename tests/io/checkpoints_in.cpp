@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <cstdio>
+#include <map>
 #include <set>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -76,6 +77,20 @@ TEST_F(CheckpointsTest, RefuseWhatMakesNoSense)
     auto tank = small_tank::scene();
     io::Checkpoints nowhere(folder / "not_there", {.steps = 1});
     EXPECT_THROW(tank.run({.steps = 2, .dt = dt}, nowhere), OutputError);
+}
+
+TEST(Every, GoesOnWithTheIntervalThatItHasNow)
+{
+    io::detail::Every before(0.1), same(0.1), other(0.25);
+    EXPECT_TRUE(before.due(0.35)); // for 0.3
+    std::map<std::string, double> notes;
+    before.notes("e", [&](std::string const& name, double& value) { notes[name] = value; });
+    auto recall = [&](std::string const& name, double& value) { value = notes.at(name); };
+    same.notes("e", recall), other.notes("e", recall);
+    EXPECT_FALSE(same.due(0.39));
+    EXPECT_TRUE(same.due(0.4));
+    EXPECT_FALSE(other.due(0.45));
+    EXPECT_TRUE(other.due(0.5));
 }
 
 /// What a run leaves in a folder: in one piece, or interrupted at some steps and continued.
@@ -191,8 +206,13 @@ TEST_F(ContinuedTest, AfterFiftyKillsAtAnyMomentGoesOnFromAWholeFile)
         const pid_t child = ::fork();
         ASSERT_GE(child, 0);
         if (child == 0) {
-            auto scene = small_tank::scene();
-            go_on(scene, from, {.steps = 1'000'000, .dt = dt}, 1, ends[1]); // most of the time goes into files
+            try {
+                auto scene = small_tank::scene();
+                go_on(scene, from, {.steps = 1'000'000, .dt = dt}, 1, ends[1]); // most of the time goes into files
+            }
+            catch (std::exception const& e) {
+                std::fputs(e.what(), stderr);
+            }
             ::_exit(1);
         }
         ::close(ends[1]);

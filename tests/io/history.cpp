@@ -193,6 +193,16 @@ TEST_F(HistoryTest, ChangesNoBitOfTheRun)
     EXPECT_EQ(with.system().evaluations(), without.system().evaluations());
 }
 
+TEST_F(HistoryTest, GoesOnInASecondRun)
+{
+    auto tank = small_tank::scene();
+    History history(folder, 0);
+    for (int run = 0; run < 2; ++run) tank.run({.steps = 3}, history);
+    const Table t = table();
+    ASSERT_EQ(t.rows.size(), 7u);
+    for (std::size_t n = 0; n < 7; ++n) EXPECT_EQ(t.at(n, "step"), double(n));
+}
+
 /// An output that ends the run with a stop.
 struct StopAt {
     std::int64_t at;

@@ -191,4 +191,31 @@ TEST_F(StartLammps, StartsAScene)
     EXPECT_NEAR(box.momentum()[0], 0.1 * (1 + 3 + 5), 1e-15);
 }
 
+TEST_F(StartLammps, SpinGoesToGrainsThatTurnAndToNoOther)
+{
+    const auto start = read(written);
+    const Box<2> box{{0, 0}, {1, 1}};
+    Simulation rough(dem<2>({.mass = 0.1, .radius = 0.01}, LinearSpring{.k = 1e5}, Friction{.mu = 0.5}), Leapfrog{},
+                     Periodic(box), Serial{});
+    start.add_to(rough);
+    EXPECT_EQ(rough.particles().at(angular_velocity, 0)[0], 0);
+    EXPECT_EQ(rough.particles().at(angular_velocity, 1)[0], 7);
+    Simulation smooth(dem<2>({.mass = 0.1, .radius = 0.01}, LinearSpring{.k = 1e5}), Leapfrog{}, Periodic(box),
+                      Serial{});
+    EXPECT_THROW(start.add_to(smooth), BadInput);
+    read(by_hand).add_to(smooth);
+    EXPECT_EQ(smooth.particles().size(), 3u);
+}
+// What a mixture cannot do without.
+TEST_F(StartLammps, SizesGoToGrainsOfManySizes)
+{
+    Simulation sim(dem<2>(Mixture{.largest = 0.02}, LinearSpring{.k = 1e5}), Leapfrog{},
+                   Periodic(Box<2>{{0, 0}, {1, 1}}), Serial{});
+    read(replaced(by_hand, "1 1 0.02", "1 1 0.04")).add_to(sim);
+    EXPECT_EQ(sim.particles().at(radius, 0), 0.02);
+    EXPECT_EQ(sim.particles().at(radius, 1), 0.01);
+    EXPECT_NEAR(sim.particles().at(mass, 0), 0.8, 1e-9);
+    sim.run({.steps = 1, .dt = 1e-5});
+}
+
 } // namespace

@@ -202,7 +202,10 @@ TYPED_TEST(StillWaterOn, HasTheExactPressure)
     const Worst w = watch(s, H / n, 2);
     tell(this->name("2D, H/dx 50, short"), w);
     this->expect(w, this->gate);
-    models::known_gap(std::string("V19 floor ") + TypeParam::name, w.floor);
+    if (std::same_as<TypeParam, ByContinuity>) {
+        EXPECT_LE(w.floor, 0.01);
+    }
+    else models::known_gap(std::string("V19 floor ") + TypeParam::name, w.floor);
 }
 /// In 3D with walls on all sides, and a kernel whose gradient is true on its lattice (to 0.06 %; the cubic spline's at 1.2 dx
 /// is too small by 1.8 %).
@@ -215,7 +218,9 @@ TYPED_TEST(StillWaterOn, HasTheExactPressureIn3D)
     tell(this->name("3D, H/dx 20, short"), w);
     this->expect(w, this->gate);
     if (std::same_as<TypeParam, Extrapolated>) models::known_gap("V19 floor extrapolated 3D", w.floor);
-    else EXPECT_LE(w.floor, 0.01);
+    else {
+        EXPECT_LE(w.floor, 0.01);
+    }
 }
 /// The kernel of the other free-surface cases, in 3D.
 TEST(StillWater, HasTheExactPressureIn3DWithTheCubicSpline)
@@ -243,7 +248,9 @@ TYPED_TEST(LongStillWaterOn, HasTheExactPressureIn3D)
     tell(this->name("3D, H/dx 50, short"), w);
     this->expect(w, this->gate);
     if (std::same_as<TypeParam, Extrapolated>) models::known_gap("V19 floor extrapolated 3D H/dx 50", w.floor);
-    else EXPECT_LE(w.floor, 0.01);
+    else {
+        EXPECT_LE(w.floor, 0.01);
+    }
 }
 /// The same gates for 20 sqrt(H/g).
 TYPED_TEST(LongStillWaterOn, HasTheExactPressureForTwentyUnits)

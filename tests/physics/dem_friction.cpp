@@ -89,4 +89,132 @@ TEST(Friction, DoesNotDependOnThreadsCellsOrPacks)
     EXPECT_EQ(serial, hash(rough<3>(Serial{}, ScalarOf<Double>{})));
 }
 
+/// Two discs that overlap and stick, one of them spinning: the spin of the other before they part.
+template <class I>
+double spin_of_the_other(double dt, bool damped)
+{
+    auto spin = [&](auto... term) {
+        Simulation sim(dem<2>({.mass = 0.1, .radius = 0.01}, spring, Friction{.mu = 100}, term...), I{}, Open{},
+                       Serial{}, Double{}, NoWatch{});
+        sim.add({0, 0}, {0.3, 0.4}), sim.add({0.0195, 0}, {-0.3, -0.2});
+        auto& p = sim.particles();
+        p.put(angular_velocity, 0, {{30}});
+        sim.prepare();
+        sim.run({.steps = std::llround(0.6 * t_c / dt), .dt = dt});
+        EXPECT_FALSE((sim.system().template kept_of_pairs<0, 0>().empty()));
+        return p.at(angular_velocity, p.id()[0] == 1 ? 0 : 1)[0];
+    };
+    return damped ? spin(dashpot) : spin();
+}
+template <class I>
+double order(bool damped)
+{
+    const double dt = 0.6 * t_c / 200;
+    const double a = spin_of_the_other<I>(dt, damped), b = spin_of_the_other<I>(dt / 2, damped),
+                 c = spin_of_the_other<I>(dt / 4, damped);
+    return std::log2((a - b) / (b - c));
+}
+// The tangential spring is advanced as positions are: no integrator loses its order by it.
+TEST(Friction, KeepsTheOrderOfTheIntegrator)
+{
+    EXPECT_NEAR(order<ForwardEuler>(true), 1, 0.1);
+    EXPECT_NEAR(order<SymplecticEuler>(true), 1, 0.1);
+    EXPECT_NEAR(order<RungeKutta2>(true), 2, 0.1);
+    EXPECT_NEAR(order<RungeKutta2>(false), 2, 0.1);
+    // Leapfrog sees the slip in the geometry at the end of the drift: of first order, but only by what the normal turns.
+    const double dt = 0.6 * t_c / 200, exact = spin_of_the_other<RungeKutta2>(dt / 8, false);
+    EXPECT_LE(std::abs(spin_of_the_other<Leapfrog>(dt, false) - exact),
+              1e-3 * std::abs(spin_of_the_other<SymplecticEuler>(dt, false) - exact));
+}
+
+/// The largest |E + losses - E_0|/E_0 over a cloud that collides.
+template <int Dim, class I>
+double imbalance(double dt, auto... term)
+{
+    Simulation sim(dem<Dim>({.mass = 0.1, .radius = 0.01}, spring, term..., Dissipation{}), I{}, Open{}, Serial{},
+                   Double{}, NoWatch{});
+    scatter<Dim>(sim, {.side = 3}, 5);
+    sim.make_lists_current();
+    const Energy start = sim.energy();
+    const double e0 = start.total();
+    double most = 0;
+    for (int k = 0; k < 60; ++k) {
+        sim.run({.steps = std::llround(0.1 * t_c / dt), .dt = dt});
+        sim.make_lists_current();
+        const Energy e = sim.energy();
+        most = std::max(most, std::abs(e.total() + e.dissipated - e0) / e0);
+    }
+    const Energy end = sim.energy();
+    EXPECT_GE(end.dissipated, 0.02 * e0);
+    EXPECT_GT(std::abs(end.rotational - start.rotational), 0.01 * start.rotational);
+    return most;
+}
+// Kinetic, rotational, elastic (springs of each kind) and what was lost add up; what is missing is of first order in dt.
+TEST(Friction, AccountsForAllEnergy)
+{
+    const auto all = std::tuple{dashpot, friction, RollingResistance{.mu = 0.1}};
+    auto of_space = [&](double dt) {
+        return std::apply([&](auto... t) { return imbalance<3, Leapfrog>(dt, t...); }, all);
+    };
+    auto of_plane = [&](double dt) { return imbalance<2, RungeKutta2>(dt, dashpot, friction); };
+    const double space = of_space(t_c / 200), finer = of_space(t_c / 800);
+    EXPECT_LE(space, 5e-3);
+    EXPECT_LE(finer, 0.3 * space); // a quarter
+    EXPECT_LE(of_plane(t_c / 200), 5e-3);
+}
+TEST(RollingResistance, ConservesAngularMomentum)
+{
+    Simulation sim(dem<3>(Mixture{.largest = 0.01}, spring, friction, RollingResistance{.mu = 0.2}), Leapfrog{}, Open{},
+                   Serial{}, Double{}, NoWatch{});
+    expect_conserved<3>(std::move(sim));
+}
+
+// Materials by pair: as if each pair were a scene of its own.
+TEST(ByMaterial, GivesEachPairItsOwnLaw)
+{
+    const LinearSpring soft{.k = 2e4}, mixed{.k = 5e4}, hard{.k = 1e5};
+    const Friction rough{.mu = 0.6}, between{.mu = 0.3}, smooth{.mu = 0.05};
+    auto collide = [&](double first, double second, auto... term) {
+        Simulation sim(dem<2>({.mass = 0.1, .radius = 0.01}, term...), Leapfrog{}, Open{}, Serial{}, Double{},
+                       NoWatch{});
+        sim.add({0, 0}, {0.5, 0}), sim.add({0.0199, 0.004}, {-0.5, 0});
+        auto& p = sim.particles();
+        if constexpr (std::remove_cvref_t<decltype(p)>::template has<Material>)
+            p.put(material, 0, first), p.put(material, 1, second);
+        sim.prepare();
+        sim.run({.steps = 300, .dt = 1e-5});
+        const std::size_t i = p.id()[0] == 0 ? 0 : 1;
+        return std::array{p.at(velocity, i)[0], p.at(velocity, i)[1], p.at(angular_velocity, i)[0],
+                          sim.energy().total()};
+    };
+    auto of = [&](double a, double b) {
+        return collide(a, b, by_material(soft, mixed, hard), dashpot, by_material(rough, between, smooth));
+    };
+    EXPECT_EQ(of(0, 0), collide(0, 0, soft, dashpot, rough));
+    EXPECT_EQ(of(1, 0), collide(0, 0, mixed, dashpot, between));
+    EXPECT_EQ(of(0, 1), of(1, 0));
+    EXPECT_EQ(of(1, 1), collide(0, 0, hard, dashpot, smooth));
+    EXPECT_EQ((by_material(soft, mixed, hard).contact_frequency(0.1)), hard.contact_frequency(0.1));
+}
+
+// The stiffest contact of the lightest grain bounds the step.
+TEST(Mixture, TakesItsStepFromTheLightestGrain)
+{
+    auto step = [](auto term, double lightest) {
+        Simulation sim(dem<3>(Mixture{.largest = 0.01}, term), Leapfrog{}, Open{});
+        sim.add({0, 0, 0}), sim.add({0.1, 0, 0});
+        auto& p = sim.particles();
+        p.put(mass, 0, 0.1), p.put(mass, 1, lightest), p.put(radius, 0, 0.01), p.put(radius, 1, 0.005);
+        sim.prepare();
+        sim.run({.steps = 1});
+        return sim.dt();
+    };
+    EXPECT_NEAR(step(spring, 0.01), std::numbers::pi / std::sqrt(2 * 1e5 / 0.01) / 25, 1e-12);
+    // 0.15 of the Rayleigh time of glass, 5 mm: pi R sqrt(rho/G)/(0.1631 nu + 0.8766)
+    const double R = 0.005, rho = 2800, nu = 0.2, G = 48e9 / 2.4;
+    const double rayleigh = std::numbers::pi * R * std::sqrt(rho / G) / (0.1631 * nu + 0.8766);
+    const double m = rho * 4.0 / 3 * std::numbers::pi * R * R * R;
+    EXPECT_NEAR(step(Hertz::of({48e9, nu}), m) / (0.15 * rayleigh), 1, 1e-9);
+}
+
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What six scenes store, pack, advance and add up: the listed minimum and nothing else (numerics A.13 i).
+// What ten scenes store, pack, advance and add up: the listed minimum and nothing else (numerics A.13 i).
 // Each set is compared by the compiler; the test prints them.
 #include <spate/spate.hpp>
 
@@ -113,13 +113,13 @@ static_assert(same(Frozen::sums, Fields{acceleration}) && Frozen::swept(0) == 2)
 
 // Without forces: nothing accelerates, and pressure, which nobody reads, is not packed.
 [[maybe_unused]] auto free_flight() { return wcsph(kernel, eos, Continuity<2>{}); }
-using Flight = decltype(scene(free_flight(), Open{}));
-static_assert(same(Flight::M::mobile, of_water - Fields{acceleration}) && Flight::values == 12);
-static_assert(same(Flight::record, Fields{position, velocity}));
-static_assert(Flight::Packed::count == 6 && Flight::Packed::stride == 8);
-static_assert(same(Flight::evolving, Fields{position, density}));
-static_assert(same(Flight::sums, Fields{density_rate}) && Flight::swept(0) == 1);
-static_assert(Set<Flight::M::marker>::size == 0);
+using FreeFlight = decltype(scene(free_flight(), Open{}));
+static_assert(same(FreeFlight::M::mobile, of_water - Fields{acceleration}) && FreeFlight::values == 12);
+static_assert(same(FreeFlight::record, Fields{position, velocity}));
+static_assert(FreeFlight::Packed::count == 6 && FreeFlight::Packed::stride == 8);
+static_assert(same(FreeFlight::evolving, Fields{position, density}));
+static_assert(same(FreeFlight::sums, Fields{density_rate}) && FreeFlight::swept(0) == 1);
+static_assert(Set<FreeFlight::M::marker>::size == 0);
 
 // Walls by continuity: a marker carries density and its rate, and no acceleration; gravity does not move it.
 using Seed = decltype(scene(water(), by_continuity()));
@@ -137,6 +137,45 @@ static_assert(same(Grains::record, Fields{position}) && Grains::Packed::count ==
 static_assert(same(Grains::evolving, Fields{position, velocity}));
 static_assert(same(Grains::sums, Fields{acceleration}) && Grains::swept(0) == 1);
 
+// Rough ones turn: spin and its rate, and what a contact remembers, one number a pair in a plane, three in space. An angle
+// is nobody's business.
+template <int Dim>
+[[maybe_unused]] auto rough_grains()
+{
+    return dem<Dim>({.mass = 0.1, .radius = 0.01}, LinearSpring{.k = 1e5}, Dashpot{.e = 0.7}, Friction{.mu = 0.5});
+}
+template <int Dim>
+using Rough = decltype(scene(rough_grains<Dim>(), Open{}));
+constexpr Fields of_rough{position, velocity, angular_velocity, acceleration, angular_acceleration, build_position};
+static_assert(same(Rough<2>::M::mobile, of_rough) && Rough<2>::values == 10);
+static_assert(same(Rough<3>::M::mobile, of_rough) && Rough<3>::values == 18);
+static_assert(same(Rough<3>::M::uniform<0>(), Fields{mass, radius}));
+static_assert(same(Rough<3>::record, Fields{position, velocity, angular_velocity}));
+static_assert(Rough<2>::Packed::count == 5 && Rough<3>::Packed::count == 9);
+static_assert(same(Rough<3>::evolving, Fields{position, velocity, angular_velocity}));
+static_assert(same(Rough<3>::sums, Fields{acceleration, angular_acceleration}) && Rough<3>::swept(0) == 3);
+static_assert(Rough<2>::S::kept_values<0, 0> == 1 && Rough<3>::S::kept_values<0, 0> == 3);
+static_assert(Grains::S::kept_values<0, 0> == 0);
+
+// A dashpot alone does not turn anything; it sends velocities too.
+[[maybe_unused]] auto damped_grains()
+{
+    return dem<3>({.mass = 0.1, .radius = 0.01}, LinearSpring{.k = 1e5}, Dashpot{.e = 0.7});
+}
+using Damped = decltype(scene(damped_grains(), Open{}));
+static_assert(same(Damped::M::mobile, Fields{position, velocity, acceleration, build_position}));
+static_assert(same(Damped::record, Fields{position, velocity}) && Damped::S::kept_values<0, 0> == 0);
+
+// Of many sizes: mass and radius are columns; a neighbour sends its mass to the dashpot.
+[[maybe_unused]] auto mixture()
+{
+    return dem<3>(Mixture{.largest = 0.01}, LinearSpring{.k = 1e5}, Dashpot{.e = 0.7}, Friction{.mu = 0.5},
+                  Dissipation{});
+}
+using Mixed = decltype(scene(mixture(), Open{}));
+static_assert(same(Mixed::M::mobile, of_rough | Fields{mass, radius, dissipated, dissipation_rate}));
+static_assert(same(Mixed::record, Fields{position, radius, velocity, mass, angular_velocity}));
+
 } // namespace
 
 TEST(FieldSets, AreTheListedMinimum)
@@ -144,9 +183,13 @@ TEST(FieldSets, AreTheListedMinimum)
     print("dam of the front page, Adami walls", Dam{});
     print("... without viscosity", Inviscid{});
     print("... without continuity and diffusion", Frozen{});
-    print("... by continuity alone, no walls", Flight{});
+    print("... by continuity alone, no walls", FreeFlight{});
     print("dam of the front page, walls by continuity", Seed{});
     print("equal discs", Grains{});
+    print("... damped spheres", Damped{});
+    print("... rough discs", Rough<2>{});
+    print("... rough spheres", Rough<3>{});
+    print("rough spheres of many sizes that count what they lose", Mixed{});
 }
 
 // The columns themselves, not only their sets: what a particle costs, ids and padding aside.

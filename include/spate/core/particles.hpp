@@ -231,6 +231,8 @@ public:
         id_.insert(id_.end(), ids.begin(), ids.end());
         fit(old);
     }
+    /// So many ids are taken by particles elsewhere.
+    void skip_ids(std::size_t n) { next_id_ += std::uint32_t(n); }
     /// Fills the padding with copies of the last particle, so that a whole pack computes with physical values.
     void pad()
     {

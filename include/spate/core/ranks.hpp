@@ -86,6 +86,23 @@ struct Join { // of Extremes, Spread
 };
 } // namespace agree
 
+/// The values of all ranks, one rank after the other, on rank 0; elsewhere none.
+template <class R, class T>
+[[nodiscard]] std::vector<T> gathered(R const& ranks, std::vector<T> mine)
+{
+    if constexpr (R::alone) return mine;
+    else {
+        std::vector<Parcel> parcels(1, Parcel{0, {}});
+        parcels.front().message.put(mine);
+        parcels = ranks.scatter(std::move(parcels));
+        mine.clear();
+        for (auto& p : parcels) {
+            const auto some = p.message.template take_all<T>();
+            mine.insert(mine.end(), some.begin(), some.end());
+        }
+        return mine;
+    }
+}
 /// The ranks that share a scene.
 template <class Scene>
 [[nodiscard]] auto party_of([[maybe_unused]] Scene const& scene)

@@ -6,6 +6,7 @@
 #include "spate/core/errors.hpp"
 #include "spate/core/ranks.hpp"
 
+#include <algorithm>
 #include <exception>
 #include <optional>
 #include <string_view>
@@ -30,7 +31,7 @@ struct Failure {
     double time = 0, position[3] = {}, velocity[3] = {}, value = 0, limit = 0;
     char name[32] = {}, quantity[160] = {}, what[640] = {};
 
-    [[gnu::cold]] static void copy(std::span<char> to, std::string_view from)
+    [[gnu::cold]] static void put(std::span<char> to, std::string_view from)
     {
         const std::size_t n = std::min(to.size() - 1, from.size());
         std::copy_n(from.begin(), n, to.begin());
@@ -43,14 +44,14 @@ struct Failure {
         mine.kind = Kind::stop, mine.step = f.step, mine.particle = f.particle, mine.species = f.species;
         mine.time = f.time, mine.value = f.value, mine.limit = f.limit;
         std::copy_n(f.position, 3, mine.position), std::copy_n(f.velocity, 3, mine.velocity);
-        copy(mine.name, stop.name()), copy(mine.quantity, f.quantity);
+        put(mine.name, stop.name()), put(mine.quantity, f.quantity);
         return mine;
     }
     [[gnu::cold]] static Failure of(Kind kind, std::string_view what)
     {
         Failure mine;
         mine.kind = kind;
-        copy(mine.what, what);
+        put(mine.what, what);
         return mine;
     }
     /// A stop counts more than other errors, that of the least particle more than others: as on one rank.
@@ -106,6 +107,15 @@ void together(R const& ranks, auto const& f)
         if (first.rank == ranks.rank() && thrown) std::rethrow_exception(thrown);
         first.raise();
     }
+}
+
+/// Rank 0 alone calls f, for all: a file is written once. What it throws all throw.
+template <Ranks R>
+void by_one(R const& ranks, auto const& f)
+{
+    together(ranks, [&] {
+        if (ranks.rank() == 0) f();
+    });
 }
 
 } // namespace spate

@@ -69,18 +69,17 @@ inline std::array<char, checkpoint_header> header_of(int version, std::uint64_t 
 /// Refuses bytes that are not those which were written.
 inline void check_header(State const& state, std::span<std::byte const> file)
 {
-    std::string head(std::min(file.size(), checkpoint_header), '\0');
-    std::memcpy(head.data(), file.data(), head.size());
+    std::string head;
+    for (const std::byte b : file.first(std::min(file.size(), checkpoint_header))) head += static_cast<char>(b);
     int version = -1;
     unsigned long long size = 0, sum = 0;
     const int read = std::sscanf(head.c_str(), "spate checkpoint\nversion %9d\nbytes %19llu\nchecksum %16llx", &version,
                                  &size, &sum);
     if (read < 1) state.refuse("no checkpoint: it does not begin like one");
     if (version != checkpoint_version)
-        state.refuse("of version " + std::to_string(version) + ", and this program reads version " +
-                     std::to_string(checkpoint_version));
+        state.refuse("of version " + text(version) + ", and this program reads version " + text(checkpoint_version));
     if (file.size() < checkpoint_header || (read >= 2 && file.size() < size))
-        state.refuse("cut off after " + std::to_string(file.size()) + " bytes");
+        state.refuse("cut off after " + text(double(file.size())) + " bytes");
     const auto due = header_of(version, size, sum);
     if (read != 3 || file.size() != size || std::memcmp(due.data(), head.data(), due.size()) != 0 ||
         checksum(file.subspan(checkpoint_header)) != sum)

@@ -18,6 +18,8 @@
 #include "spate/core/errors.hpp"
 #include "spate/io/output_error.hpp"
 #include "spate/io/resume.hpp"
+#include "spate/io/state.hpp"
+#include "spate/io/state_of.hpp"
 
 namespace spate::io {
 

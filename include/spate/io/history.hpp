@@ -18,6 +18,7 @@
 
 #include "spate/core/errors.hpp"
 #include "spate/core/fields.hpp"
+#include "spate/core/together.hpp"
 #include "spate/io/detail/every.hpp"
 #include "spate/io/detail/replace_file.hpp"
 #include "spate/io/output_error.hpp"
@@ -98,11 +99,13 @@ public:
     {
         const std::string head = heading(scene);
         const bool goes_on = so_far_.written >= 0;
-        if (goes_on) keep_rows(head);
-        errno = 0;
-        out_.open(tmp_, goes_on ? std::ios::app : std::ios::trunc);
+        by_one(party_of(scene), [&] {
+            if (goes_on) keep_rows(head);
+            errno = 0;
+            out_.open(tmp_, goes_on ? std::ios::app : std::ios::trunc);
+            if (!goes_on) line(head);
+        });
         if (goes_on) return;
-        line(head);
         write(scene);
         every_.due(scene.time());
     }
@@ -115,12 +118,14 @@ public:
         const SoFar even = so_far_;
         if (!scene.stopped() && so_far_.written != scene.steps()) write(scene);
         so_far_ = even; // a run that goes on would not have had the row of the end
-        out_.close();
-        if (!out_) throw OutputError(file_, errno);
-        std::error_code error;
-        std::filesystem::rename(tmp_, file_, error);
-        if (error) throw OutputError(file_, error.value());
-        detail::sync_directory(file_);
+        by_one(party_of(scene), [&] {
+            out_.close();
+            if (!out_) throw OutputError(file_, errno);
+            std::error_code error;
+            std::filesystem::rename(tmp_, file_, error);
+            if (error) throw OutputError(file_, error.value());
+            detail::sync_directory(file_);
+        });
     }
     std::filesystem::path const& file() const { return file_; }
     /// What a restart needs: f(name, number).
@@ -256,7 +261,7 @@ private:
         row.add(extremes.speed);
         if constexpr (has_density<Scene>) row.add(extremes.least_density), row.add(extremes.most_density);
         each_column([&](auto const& c) { row.add(c(scene)); });
-        line(row.text());
+        by_one(party_of(scene), [&] { line(row.text()); });
         so_far_.written = scene.steps();
     }
     [[gnu::cold]] void line(std::string const& text)

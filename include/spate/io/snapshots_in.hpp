@@ -15,6 +15,7 @@
 
 #include "spate/core/errors.hpp"
 #include "spate/core/fields.hpp"
+#include "spate/core/together.hpp"
 #include "spate/io/cloud.hpp"
 #include "spate/io/detail/every.hpp"
 
@@ -57,9 +58,33 @@ template <class Particles, class F>
     }
 }
 
+/// Of all ranks, on rank 0; in the order of species and ids, as on one rank.
+[[gnu::cold]] inline void gather(Cloud& cloud, auto const& ranks)
+{
+    cloud.id = gathered(ranks, std::move(cloud.id));
+    cloud.species = gathered(ranks, std::move(cloud.species));
+    std::vector<std::size_t> order(cloud.id.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return std::pair(cloud.species[a], cloud.id[a]) < std::pair(cloud.species[b], cloud.id[b]);
+    });
+    auto sort = [&](auto& values, std::size_t components) {
+        const auto old = values;
+        for (std::size_t k = 0; k < order.size(); ++k)
+            for (std::size_t c = 0; c < components; ++c) values[k * components + c] = old[order[k] * components + c];
+    };
+    cloud.points = gathered(ranks, std::move(cloud.points));
+    sort(cloud.points, 3);
+    for (Column& column : cloud.columns) {
+        column.values = gathered(ranks, std::move(column.values));
+        sort(column.values, std::size_t(column.components));
+    }
+    sort(cloud.id, 1), sort(cloud.species, 1);
+}
+
 } // namespace detail
 
-/// All particles of a scene, with the fields that its mobile particles show.
+/// All particles of a scene, with the fields that its mobile particles show; of many ranks they are on rank 0.
 template <class Scene>
 [[gnu::cold]] Cloud cloud_of(Scene const& scene)
 {
@@ -83,6 +108,7 @@ template <class Scene>
             for_each(fields, [&](auto f) { detail::append(cloud.columns[k++], p, i, f); });
         }
     });
+    if constexpr (!decltype(party_of(scene))::alone) detail::gather(cloud, party_of(scene));
     return cloud;
 }
 
@@ -125,7 +151,8 @@ private:
     [[gnu::cold]] void write(auto& scene) // seldom: small and quick to compile
     {
         scene.refresh();
-        last_ = series_.write(cloud_of(scene));
+        const Cloud cloud = cloud_of(scene);
+        by_one(party_of(scene), [&] { last_ = series_.write(cloud); });
         written_ = scene.steps();
     }
 

@@ -22,7 +22,7 @@ struct Start {
     std::vector<Vec<Dim, double>> v;  ///< [m/s]
     std::vector<double> radius;       ///< [m]; empty: not said
     std::vector<double> mass;         ///< [kg]; empty: not said
-    std::vector<Vec<3, double>> spin; ///< angular velocity [1/s], in 2D about z; empty: none
+    std::vector<Vec<3, double>> spin; ///< angular velocity [rad/s], in 2D about z; empty: none
     std::optional<Box<Dim>> box;      ///< in which they are, if the file says so
 
     [[nodiscard]] std::size_t size() const { return x.size(); }
@@ -34,10 +34,15 @@ struct Start {
         auto& p = scene.particles();
         agrees(p, spate::radius, radius, "m");
         agrees(p, spate::mass, mass, "kg");
+        if constexpr (!std::remove_cvref_t<decltype(p)>::template has<AngularVelocity>)
+            for (std::size_t k = 0; k < spin.size(); ++k)
+                require(spin[k] == Vec<3, double>{}, "spin of particle " + std::to_string(k) + " of the start file",
+                        std::sqrt(spin[k].squaredNorm()), "0 rad/s: no term of the model turns grains");
         for (std::size_t k = 0; k < size(); ++k) {
             const std::size_t i = scene.add(x[k], v[k]);
             give(p, i, spate::radius, radius, k);
             give(p, i, spate::mass, mass, k);
+            turn(p, i, k);
         }
     }
 
@@ -51,6 +56,16 @@ private:
                 require(std::abs(said[k] - p.value(f)) <= 1e-9 * p.value(f),
                         std::string(F::name) + " of particle " + std::to_string(k) + " of the start file", said[k],
                         "that of the model, " + text(p.value(f)) + " " + unit + ", to a billionth");
+    }
+    void turn([[maybe_unused]] auto& p, [[maybe_unused]] std::size_t i, [[maybe_unused]] std::size_t k) const
+    {
+        if constexpr (std::remove_cvref_t<decltype(p)>::template has<AngularVelocity>) {
+            if (spin.empty()) return;
+            auto w = p.at(angular_velocity, i);
+            if constexpr (Dim == 3) w = spin[k];
+            else w[0] = spin[k][2];
+            p.put(angular_velocity, i, w);
+        }
     }
     template <Field F>
     static void give(auto& p, std::size_t i, F f, std::vector<double> const& said, std::size_t k)

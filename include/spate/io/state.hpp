@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// \brief All that a run needs to go on, as named tables of numbers and texts: what a checkpoint holds.
-///        Not the file (io/checkpoint_file.hpp), and not what of a scene goes into it (io/resume.hpp).
+///        Not the file (io/checkpoint_file.hpp), and not what of a scene goes into it (io/state_of.hpp).
 #pragma once
 
 #include <cstdint>
@@ -71,9 +71,7 @@ struct State {
     [[nodiscard]] std::vector<T> const& table(std::string const& name, std::size_t columns, std::size_t rows) const
     {
         auto const& values = table<T>(name, columns);
-        if (values.size() != rows * columns)
-            refuse("with " + std::to_string(values.size() / columns) + " rows of " + name + " where " +
-                   std::to_string(rows) + " are due");
+        if (values.size() != rows * columns) refuse("with a " + name + " of another length than is due");
         return values;
     }
     template <class T>

@@ -58,16 +58,16 @@ struct Some {
     {
         return system.sum([&](std::size_t i) { return is[i] != 0 ? f(i) : 0.0; });
     }
+    [[nodiscard]] double wall_energy() const
+    {
+        return system.wall_energy([&](std::size_t i) { return is[i] != 0; });
+    }
     [[nodiscard]] double pair_energy() const
     {
         if (!contacts) return 0;
         return system.pair_energy([&](std::size_t i, std::size_t j) {
             return is[i] == 0 ? 0.0 : is[j] != 0 ? 0.5 : 1.0;
         });
-    }
-    [[nodiscard]] double wall_energy() const
-    {
-        return contacts ? sum([&](std::size_t i) { return system.wall_energy_of(i); }) : 0;
     }
 };
 

@@ -16,8 +16,11 @@ namespace spate {
 
 /// What made a value that is not finite; no term where it was not one: the sum of a step overflowed, or a hand did it.
 struct Origin {
-    std::string term;          ///< type of the term
-    std::int64_t other = -1;   ///< id of the neighbour of whom it made the value
+    std::string term;                                        ///< type of the term
+    int species = -1;                                        ///< of whom it made the value
+    std::int64_t particle = -1;                              ///< its id
+    double position[3] = {0, 0, 0}, velocity[3] = {0, 0, 0}; ///< there and then [m], [m/s]
+    std::int64_t other = -1;                                 ///< id of the neighbour of whom it made the value
     bool at_one_place = false; ///< the two are at one place, where a contact has no normal
 };
 
@@ -206,6 +209,12 @@ private:
                 if (mine.finite(changes)) return false;
             }
             origin_.term = detail::type_name<Term>();
+            origin_.species = s, origin_.particle = of<s>().id()[i];
+            for (int c = 0; c < dim; ++c) {
+                origin_.position[c] = of<s>().at(position, i)[c];
+                if constexpr (std::remove_cvref_t<decltype(of<s>())>::template has<Velocity>)
+                    origin_.velocity[c] = of<s>().at(velocity, i)[c];
+            }
             return true;
         }
         else return false;

@@ -57,15 +57,15 @@ std::size_t first_by_id(P const& p, auto const& is)
         if (is(i) && (first == p.size() || p.id()[i] < p.id()[first])) first = i;
     return first;
 }
-/// The first field of particle i that is not finite: its name and value.
+/// The first field of particle i that is not finite, or whose square is not: its name and value.
 template <class P>
 [[gnu::cold]] std::pair<std::string, double> not_finite(P const& p, std::size_t i)
 {
     std::pair<std::string, double> found{"", 0};
     for_each(P::fields, [&]<class F>(F f) {
         for (int c = 0; c < components<F, P::dim> && found.first.empty(); ++c) {
-            const double value = double(p.column(f)[std::size_t(c)][i]);
-            if (!std::isfinite(value)) found = {std::string(F::name), value};
+            const auto value = p.column(f)[std::size_t(c)][i];
+            if (!std::isfinite(value * value)) found = {std::string(F::name), value};
         }
     });
     return found;
@@ -83,8 +83,8 @@ template <class P>
 }
 } // namespace detail
 
-/// Throws NonFinite (CoincidentParticles where that is why) for the first particle with a value that is not finite; nothing
-/// if there is none.
+/// Throws NonFinite (CoincidentParticles where that is why) for the particle of least id with a value that is not finite, or
+/// for the one of which a term made it, as it was then; nothing if all is finite.
 /// \param origin  asked for the Origin of the value
 template <class P>
 [[gnu::cold]] void stop_if_not_finite(P const& p, std::int64_t step, double time, auto const& origin)
@@ -95,9 +95,14 @@ template <class P>
     StopFacts f = detail::facts_of(p, i);
     f.step = step, f.time = time;
     std::tie(f.quantity, f.value) = detail::not_finite(p, i);
-    f.limit = std::numeric_limits<double>::max();
+    f.limit = std::sqrt(double(std::numeric_limits<typename P::real>::max())); // squares must be finite too
     const Origin from = origin();
-    f.term = from.term, f.other = from.other;
+    if (!from.term.empty()) { // neighbours may have ids that are less
+        f.species = from.species, f.particle = from.particle;
+        std::copy(std::begin(from.position), std::end(from.position), f.position);
+        std::copy(std::begin(from.velocity), std::end(from.velocity), f.velocity);
+        f.term = from.term, f.other = from.other;
+    }
     if (from.at_one_place) throw CoincidentParticles(f);
     throw NonFinite(f);
 }

@@ -156,7 +156,10 @@ struct SplitView {
     template <Field F>
     [[gnu::always_inline]] decltype(auto) operator[](F f) const
     {
-        if constexpr (std::same_as<F, Position>) return Split{whole.record[position], whole.record[position_tail]};
+        if constexpr (std::same_as<F, Position>) {
+            using X = std::remove_cvref_t<decltype(whole.record[position])>;
+            return Split<X>{whole.record[position], whole.record[position_tail]};
+        }
         else return whole[f];
     }
 };

@@ -18,6 +18,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <set>
 
 namespace spate {
 
@@ -96,6 +97,11 @@ public:
         std::size_t n = 0;
         each_species([&](auto s) { n += counted<s()>(); });
         return ranks().all(n, agree::Sum{});
+    }
+    template <int s>
+    [[nodiscard]] std::size_t total_of() const
+    {
+        return ranks().all(counted<s>(), agree::Sum{});
     }
     /// Of the particles here those that this rank counts where all ranks count: the first so many.
     template <int s>
@@ -238,6 +244,11 @@ public:
         double marker = M::markers ? e.moved + t * e.speed + t2 * e.acceleration : 0;
         if constexpr (M::moves) marker += e.wall_moved + t * e.wall_speed;
         return pair > marker ? pair : marker;
+    }
+    /// Beyond this distance from the origin places are rounded by a hundredth of the length that forces vary over [m].
+    [[nodiscard]] double farthest() const
+    {
+        return 0.02 * physics_.interaction.length() / double(std::numeric_limits<T>::epsilon());
     }
     void forget_lists()
     {
@@ -411,18 +422,23 @@ public:
             });
         });
     }
-    /// The evolving fields as they were when save() was called; false if the particles are others now.
+    /// The evolving fields as they were when save() was called, what derives from them zero; false if the particles are others
+    /// now.
     [[gnu::cold]] bool restore()
     {
         bool same = true;
         each_species([&](auto s) {
             auto& x = species<s()>();
             same = same && x.start.size() == x.particles.size();
-            if (same)
-                for_each(M::template evolving<s()>(), [&](auto f) {
-                    for (std::size_t c = 0; c < std::size(x.particles.column(f)); ++c)
-                        x.particles.column(f)[c] = x.start.column(f)[c];
-                });
+            if (!same) return;
+            for_each(M::template evolving<s()>(), [&](auto f) {
+                for (std::size_t c = 0; c < std::size(x.particles.column(f)); ++c)
+                    x.particles.column(f)[c] = x.start.column(f)[c];
+            });
+            for_each(x.particles.fields, [&](auto f) { // of the state of now
+                if constexpr (decltype(f)::derived)
+                    for (auto& column : x.particles.column(f)) std::fill(column.begin(), column.end(), T(0));
+            });
         });
         kick_rates_ = false;
         return same;
@@ -497,10 +513,15 @@ public:
     /// The sum of that.
     [[nodiscard]] double wall_energy() const
     {
+        return wall_energy([](std::size_t) { return true; });
+    }
+    /// The same of the particles that count.
+    [[nodiscard]] double wall_energy([[maybe_unused]] auto const& counts) const
+    {
         constexpr bool any = []<class... X>(std::tuple<X...> const*) {
             return (false || ... || requires { X::pushes; });
         }(static_cast<typename M::Terms const*>(nullptr));
-        if constexpr (any) return sum([&](std::size_t i) { return wall_energy_of(i); });
+        if constexpr (any) return sum([&](std::size_t i) { return counts(i) ? wall_energy_of(i) : 0.0; });
         else return 0;
     }
     /// What terms of a boundary without markers do to the particles: f(i, sums) with all that they add to particle i.
@@ -525,7 +546,7 @@ public:
         auto& p = mobile();
         std::atomic<bool> any = false, lost = false;
         stretches<0>([&](std::size_t first, std::size_t last) {
-            constexpr auto W = std::size_t(width<PairV>);
+            constexpr auto W = std::size_t(width<V>);
             for (std::size_t k = first; k < last; k += W) {
                 if (!boundary_.any_beyond(p.template load_at<V>(position, k), radius_at<V>(k))) continue;
                 for (std::size_t i = k; i < std::min(last, k + W); ++i) {
@@ -629,12 +650,35 @@ public:
         make_room();
         forget_lists();
     }
+    /// Whether the k-th of new particles starts here: until shares are known, blocks go from rank to rank.
+    [[nodiscard]] bool starts_here([[maybe_unused]] std::size_t k) const
+    {
+        if constexpr (alone) return true;
+        else return k / 256 % std::size_t(ranks().count()) == std::size_t(ranks().rank());
+    }
+    /// Room for those of `total` new particles that start here; all others are started by other ranks.
+    template <int s>
+    void adopt(std::vector<std::uint32_t> numbers, std::size_t total)
+    {
+        auto& p = species<s>().particles;
+        for (auto& k : numbers) k += p.next_id();
+        p.append(numbers);
+        p.skip_ids(total);
+        parts_.own(s, p.size());
+    }
+    /// Whether all particles here are this rank's own.
+    template <int s>
+    [[nodiscard]] bool owns_all() const
+    {
+        return parts_.owned(s) == species<s>().particles.size();
+    }
     /// Of what all ranks have been given alike each keeps its own. \param cut  by new cuts, of like numbers of particles
     void distribute([[maybe_unused]] bool cut)
     {
         if constexpr (!alone) {
             if (cut) cut_by_number();
             go_home(false);
+            if (cut) check_cells();
         }
     }
     /// Tests move cells at every so many steps: cuts by a cost that has nothing to do with work.
@@ -1231,6 +1275,7 @@ private:
         else if constexpr (from_1 != 0) run_with(source<s, 1, from_1>());
         else run_with();
     }
+public:
     /// What the terms of s <- q keep of a pair.
     template <int s, int q>
     static constexpr auto kept()
@@ -1247,6 +1292,8 @@ private:
     }
     template <int s, int q>
     static constexpr int kept_values = Layout<dim, Set<kept<s, q>()>>::count;
+
+private:
     /// f(s, q, memory set aside, memory by cell) for each pair of species of which something is kept.
     void each_memory(auto const& f)
     {
@@ -1484,6 +1531,18 @@ private:
         return patch;
     }
     bool balance_due() { return backend_.balance.every > 0 && ++looks_ % backend_.balance.every == 0; }
+    [[gnu::cold]] void check_cells() const
+    {
+        std::set<Index<dim>> here;
+        each_species([&](auto s) {
+            auto const& p = species<s()>().particles;
+            for (std::size_t i = 0; i < p.size(); ++i) here.insert(cell_at(p, position, i));
+        });
+        const auto cells = ranks().all(std::int64_t(here.size()), agree::Sum{});
+        if (cells > 0 && cells < ranks().count())
+            throw BadInput("the number of ranks", std::to_string(ranks().count()),
+                           "at most that of occupied cells, " + std::to_string(cells) + "; smaller cells are more");
+    }
     /// Like shares of particles, before anything is known of what they cost.
     void cut_by_number()
     {
@@ -1499,10 +1558,6 @@ private:
         });
         std::vector<CellCost> cost;
         for (auto const& [key, n] : in_cell) cost.push_back({key, n});
-        const auto cells = ranks().all(std::int64_t(cost.size()), agree::Sum{});
-        if (cells > 0 && cells < ranks().count())
-            throw BadInput("the number of ranks", std::to_string(ranks().count()),
-                           "at most that of occupied cells, " + std::to_string(cells) + "; smaller cells are more");
         parts_.use(Shares<dim>::of_like_cost(std::move(cost), ranks()));
     }
     /// Like shares of what cells have cost since lists were built, if that pays.
@@ -1589,14 +1644,29 @@ private:
     }
     void wrap(auto& particles)
     {
+        const double most = farthest();
         auto& x = particles.column(position);
         for (int c = 0; c < dim; ++c)
             if (grid_.periodic(c))
                 for (std::size_t i = 0; i < particles.size(); ++i) {
                     auto& value = x[std::size_t(c)][i];
+                    if (!(std::abs(double(value)) <= most)) stop_lost(particles, i, most);
                     value = T(grid_.wrapped(c, double(value)));
-                    if (!(double(value) < grid_.box().hi[c])) value = T(grid_.box().lo[c]); // rounded up in T
+                    const bool inside = double(value) >= grid_.box().lo[c] && double(value) < grid_.box().hi[c];
+                    if (!inside) value = T(grid_.box().lo[c]); // rounded out in T
                 }
+    }
+    [[noreturn, gnu::cold]] static void stop_lost(auto const& particles, std::size_t i, double most)
+    {
+        StopFacts f;
+        f.particle = particles.id()[i];
+        f.quantity = "the distance from the origin along an axis [m], to wrap,";
+        for (int c = 0; c < dim; ++c) {
+            f.position[c] = particles.at(position, i)[c];
+            if (!(std::abs(f.position[c]) <= most)) f.value = f.position[c];
+        }
+        f.limit = most;
+        throw IndexOverflow(f);
     }
     P physics_;
     B boundary_;

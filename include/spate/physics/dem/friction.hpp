@@ -39,13 +39,10 @@ struct FrictionOn {
                 if constexpr (Law::damped) return loss * law.damping(i, j, k_n);
                 else return NoDamping{};
             });
-        const auto spring = where(s.slides, (1 / k) * s.elastic(), xi);
-        i[tangential_spring] = spring;
+        i[tangential_spring] = s.yields * xi;
         push_across(i, ij, s.g);
         detail::lose<Counted>(
-            i, ij, [&]() __attribute__((always_inline)) {
-                return s.viscous_power() + s.elastic().dot(xi - spring) / max(value(i[elapsed]), 1e-300);
-            });
+            i, ij, [&]() __attribute__((always_inline)) { return s.losses(k, xi, u, i[elapsed]); });
     }
     /// Elastic energy of the tangential spring [J].
     [[nodiscard]] double energy(auto const& i, auto const& j, auto const& ij) const

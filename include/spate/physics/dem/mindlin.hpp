@@ -36,7 +36,7 @@ struct MindlinOn {
                 if constexpr (Law::damped) return law.damping(i, j, k);
                 else return NoDamping{};
             });
-        i[tangential_force] = where(s.slides, s.elastic(), t);
+        i[tangential_force] = s.yields * t;
         push_across(i, ij, s.g);
     }
 };

@@ -40,13 +40,10 @@ struct RollingResistanceOn {
                 if constexpr (Law::damped) return loss * law.damping(i, j, k_n);
                 else return NoDamping{};
             });
-        const auto spring = where(s.slides, (1 / k) * s.elastic(), rho);
-        i[rolling_spring] = spring;
+        i[rolling_spring] = s.yields * rho;
         i[angular_acceleration] -= (r / (inertia<C::dim> * i[mass] * i[radius] * i[radius])) * s.g;
         detail::lose<Counted>(
-            i, ij, [&]() __attribute__((always_inline)) {
-                return s.viscous_power() + s.elastic().dot(rho - spring) / max(value(i[elapsed]), 1e-300);
-            });
+            i, ij, [&]() __attribute__((always_inline)) { return s.losses(k, rho, u, i[elapsed]); });
     }
     /// Elastic energy of the rolling spring [J].
     [[nodiscard]] double energy(auto const& i, auto const& j, auto const& ij) const

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Checkpoints from the hand of a stranger, for libFuzzer; bash tests/fuzz/run.sh builds and runs it. The first byte says how:
+// 0 the rest is the file; 1 the rest are edits of a good file; 2 edits of what a good file holds, under a checksum that is right.
+#include "spate/io/checkpoint.hpp"
+#include "spate/spate.hpp"
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace {
+
+using namespace spate;
+
+auto little_tank()
+{
+    constexpr double dx = 0.1;
+    auto water = wcsph(CubicSpline<2>{.h = 1.2 * dx}, Tait{.rho0 = 1000, .c0 = 30}, Continuity<2>{}, PressureForce<2>{},
+                       ArtificialViscosity{.alpha = 0.1}, Gravity<2>{{0, -9.81}});
+    Simulation tank(water, RungeKutta2{}, Bce(Box<2>{{0, 0}, {1, 1}}, dx, Adami{}, open(top)), Serial{});
+    tank.fill(Box<2>{{0, 0}, {0.5, 0.5}}, dx, hydrostatic);
+    tank.run({.steps = 30});
+    return tank;
+}
+
+void insist(bool holds, char const* what)
+{
+    if (holds) return;
+    std::fprintf(stderr, "broken: %s\n", what);
+    std::abort();
+}
+
+/// Reads numbers from the fuzzer's bytes; zeros when they are used up.
+class Numbers {
+public:
+    explicit Numbers(std::span<std::uint8_t const> bytes) : bytes_(bytes) {}
+    [[nodiscard]] bool more() const { return !bytes_.empty(); }
+    template <class T>
+    T next()
+    {
+        T value{};
+        const std::size_t n = std::min(sizeof(T), bytes_.size());
+        std::memcpy(&value, bytes_.data(), n);
+        bytes_ = bytes_.subspan(n);
+        return value;
+    }
+
+private:
+    std::span<std::uint8_t const> bytes_;
+};
+
+void expect_refused(std::span<std::byte const> bytes)
+{
+    try {
+        (void)io::checkpoint_in(bytes, "fuzz.h5");
+        insist(false, "a wrong file was taken");
+    }
+    catch (BadInput const&) {
+    }
+}
+
+void edit(io::State& state, Numbers& n)
+{
+    auto at = state.tables.begin();
+    std::advance(at, n.next<std::uint16_t>() % state.tables.size());
+    const auto what = n.next<std::uint8_t>();
+    if (what == 255) {
+        state.tables.erase(at);
+        return;
+    }
+    std::visit(
+        [&]<class T>(std::vector<T>& v) {
+            const std::size_t k = v.empty() ? 0 : n.next<std::uint16_t>() % v.size();
+            if (what < 160 && !v.empty()) v[k] = n.next<T>();
+            else if (what < 180 && !v.empty()) std::swap(v[k], v[n.next<std::uint16_t>() % v.size()]);
+            else if (what < 200) v.resize(n.next<std::uint16_t>() % 500);
+            else if (what < 220) v.push_back(n.next<T>());
+            else if (!v.empty()) v.erase(v.begin() + std::ptrdiff_t(k));
+        },
+        at->second.values);
+    if (what >= 240) at->second.columns = 1 + n.next<std::uint8_t>() % 4;
+}
+
+} // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size)
+{
+    static auto tank = little_tank();
+    static const io::State good = io::state_of(tank);
+    static const auto file = [] {
+        auto content = io::detail::bytes_of("fuzz.h5", good);
+        const auto header = io::detail::header_of(1, 512 + content.size(), io::detail::checksum(content));
+        const auto bytes = std::as_bytes(std::span(header));
+        content.insert(content.begin(), bytes.begin(), bytes.end());
+        return content;
+    }();
+    if (size == 0) return 0;
+    Numbers n({data + 1, size - 1});
+    if (data[0] % 3 == 0) expect_refused(std::as_bytes(std::span(data + 1, size - 1)));
+    else if (data[0] % 3 == 1) {
+        auto bytes = file;
+        const auto length = n.next<std::uint32_t>();
+        if (length % 4 == 0) bytes.resize(length % bytes.size());
+        while (n.more() && !bytes.empty()) bytes[n.next<std::uint32_t>() % bytes.size()] ^= n.next<std::byte>();
+        if (bytes == file) return 0;
+        expect_refused(bytes);
+    }
+    else {
+        io::State state = good;
+        while (n.more() && !state.tables.empty()) edit(state, n);
+        try {
+            io::resume(tank, state);
+        }
+        catch (BadInput const&) {
+            insist(io::state_of(tank).tables == good.tables, "a refusal changed the scene");
+            return 0;
+        }
+        try {
+            tank.run({.steps = 2});
+        }
+        catch (Stop const&) { // such as a velocity that nobody has
+        }
+        io::resume(tank, good);
+    }
+    return 0;
+}
