@@ -35,12 +35,14 @@ public:
 
     int main(int argc, char** argv, std::function<void()> const& scene)
     {
-        if constexpr (!many) return Frame::main(argc, argv, scene);
-        else {
-            wait_passively(argv); // it may start the program again: before MPI
-            speaks_ = scene::Backend{}.ranks().rank() == 0;
-            return Frame::main(argc, argv, scene);
-        }
+        auto meet = [&]<class B>(B const& backend) {
+            if constexpr (has_ranks<B>) {
+                wait_passively(argv); // it may start the program again: before MPI
+                speaks_ = backend.ranks().rank() == 0;
+            }
+        };
+        if constexpr (many) meet(scene::Backend{});
+        return Frame::main(argc, argv, scene);
     }
     /// Runs a scene to its end with history (its columns the given measures), snapshots, pictures and summary.
     template <class Scene, class... Measure>
@@ -102,7 +104,9 @@ public:
     }
 
 private:
-    static constexpr bool many = requires(scene::Backend b) { b.ranks(); };
+    template <class B>
+    static constexpr bool has_ranks = requires(B b) { b.ranks(); };
+    static constexpr bool many = has_ranks<scene::Backend>;
 
     template <class Scene>
     [[gnu::cold]] static void about_species(Scene const& scene, Summary& s)
