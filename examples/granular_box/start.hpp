@@ -4,26 +4,19 @@
 #pragma once
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
 #include <numbers>
-#include <string>
 #include <vector>
 
 #include <spate/core/box.hpp>
+#include <spate/io/start.hpp>
 
 #include "granular_box/dice.hpp"
 
 namespace granular {
 
-template <int Dim>
-struct Start {
-    using Point = spate::Vec<Dim, double>;
-    spate::Box<Dim> box;
-    std::vector<Point> x, v; ///< [m], [m/s]
-};
+using spate::io::Start;
 
 /// A square in which n discs of a radius [m] cover a fraction of the area.
 inline spate::Box<2> square(std::size_t n, double radius, double fraction)
@@ -39,8 +32,9 @@ inline spate::Box<2> square(std::size_t n, double radius, double fraction)
 inline Start<2> scattered(std::size_t n, double radius, double fraction, double speed, std::uint64_t seed)
 {
     spate::require(n >= 1 && n <= 1u << 30, "particles", double(n), "1 to 1073741824");
-    Start<2> s{square(n, radius, fraction), {}, {}};
-    const double L = s.box.hi[0];
+    Start<2> s;
+    s.box = square(n, radius, fraction);
+    const double L = s.box->hi[0];
     Dice dice(seed);
     s.x.reserve(n), s.v.reserve(n);
     double free = 0; // between two neighbours [m]
@@ -82,33 +76,29 @@ inline Start<2> scattered(std::size_t n, double radius, double fraction, double 
     return s;
 }
 
-/// A file with a line for each grain: x, y[, z], vx, vy[, vz], with commas between; a first line of words is passed over.
+/// n grains on a square or cubic lattice that fills a box of a width from the floor up, jittered; at rest but for a little
+/// speed [m/s].
 template <int Dim>
-Start<Dim> from_file(std::string const& file)
+Start<Dim> stacked(std::size_t n, spate::Box<Dim> const& stack, double radius, double speed, std::uint64_t seed)
 {
-    std::ifstream in(file);
-    if (!in) throw spate::BadInput("start", file, "a file that can be read");
-    Start<Dim> s{};
-    std::string line;
-    for (int number = 1; std::getline(in, line); ++number) {
-        while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
-        if (line.empty() || line.front() == '#') continue;
-        double value[2 * Dim];
-        char const *at = line.data(), *const end = at + line.size();
-        int read = 0;
-        for (; read < 2 * Dim && at < end; ++read) {
-            while (at < end && (*at == ' ' || *at == '\t')) ++at;
-            const auto [after, error] = std::from_chars(at, end, value[read]);
-            if (error != std::errc()) break;
-            for (at = after; at < end && (*at == ' ' || *at == '\t'); ++at) {}
-            if (at < end && *at == ',') ++at;
+    spate::require(n >= 1 && n <= 1u << 30, "particles", double(n), "1 to 1073741824");
+    Start<Dim> s;
+    Dice dice(seed);
+    std::size_t along[std::size_t(Dim)];
+    double a = 0; // spacing [m]
+    for (int c = 0; c + 1 < Dim; ++c) {
+        along[c] = std::size_t(std::max(1.0, std::floor(stack.size()[c] / (2.15 * radius))));
+        a = stack.size()[c] / double(along[c]);
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+        spate::Vec<Dim, double> x, v;
+        std::size_t rest = k;
+        for (int c = 0; c < Dim; ++c) {
+            const std::size_t i = c + 1 < Dim ? rest % along[c] : rest;
+            if (c + 1 < Dim) rest /= along[c];
+            x[c] = stack.lo[c] + (double(i) + 0.5) * a + 0.45 * (a - 2 * radius) * dice.uniform(-1, 1);
+            v[c] = speed * dice.uniform(-1, 1);
         }
-        if (read == 0 && s.x.empty()) continue; // the names of the columns
-        if (read < 2 * Dim || at != end)
-            throw spate::BadInput("line " + std::to_string(number) + " of " + file, "\"" + line + "\"",
-                                  std::to_string(2 * Dim) + " numbers with commas between: place [m], velocity [m/s]");
-        typename Start<Dim>::Point x, v;
-        for (int c = 0; c < Dim; ++c) x[c] = value[c], v[c] = value[Dim + c];
         s.x.push_back(x), s.v.push_back(v);
     }
     return s;

@@ -705,9 +705,10 @@ private:
     void move_contacts()
     {
         const double t = time_ + I::ahead_velocity * dt_;
-        detail::each_in(system_.terms(), [&](auto& term) {
+        auto move = [&](auto& term) {
             if constexpr (requires { term.move_to(t); }) term.move_to(t);
-        });
+        };
+        std::apply([&](auto&... term) { (move(term), ...); }, system_.terms());
     }
     static double radius_of([[maybe_unused]] auto const& p, [[maybe_unused]] std::size_t i)
     {

@@ -41,7 +41,7 @@ TEST(SpringWall, IsAGrainOfInfiniteMass)
     EXPECT_DOUBLE_EQ(s.stiffness().contact_frequency, std::sqrt(2 * k / m)); // two grains are stiffer
 }
 // X20: a disc in a corner touches two walls at once; each is a potential of its own, so that energy is theirs to keep. Leapfrog has
-// order 2: its error at z = omega dt is below z^2/8 of the energy.
+// order 2: its error at z = omega dt is at most z^2/4 of the energy.
 TEST(SpringWall, KeepsEnergyInEdgesAndCorners)
 {
     for (double angle : {0.3, std::numbers::pi / 4, 1.2}) {
@@ -54,7 +54,7 @@ TEST(SpringWall, KeepsEnergyInEdgesAndCorners)
             const auto e = s.energy();
             worst = std::max(worst, std::abs(e.total() / (0.5 * m * 0.25) - 1)), stored = std::max(stored, e.internal);
         }
-        EXPECT_LE(worst, z * z / 8) << angle;
+        EXPECT_LE(worst, z * z / 4 / (1 - z * z / 4)) << angle;
         EXPECT_GT(stored, 0.9 * 0.5 * m * 0.25 * std::min(1.0, 2 * std::sin(angle) * std::cos(angle)));
     }
     const Box<3> room{{0, 0, 0}, {0.1, 0.1, 0.1}};
@@ -64,7 +64,7 @@ TEST(SpringWall, KeepsEnergyInEdgesAndCorners)
     const double before = s.energy().total(), z = omega * 1e-5;
     for (int n = 0; n < 100; ++n) {
         s.run({.steps = 4, .dt = 1e-5});
-        EXPECT_NEAR(s.energy().total(), before, before * z * z / 8);
+        EXPECT_NEAR(s.energy().total(), before, before * z * z / 4 / (1 - z * z / 4));
     }
 }
 // A square that is turned by 45 degrees, of four tilted planes, gives what a square along the axes gives, turned.
@@ -150,7 +150,7 @@ TEST(SpringWall, MayMove)
     auto s = discs(Leapfrog{}, contact(left, Steady<2>{.velocity = {u, 0}}, spring));
     EXPECT_TRUE(s.driven());
     s.add({0.1, 0.05}, {v, 0});
-    s.run({.until = 0.3, .dt = 1e-5});
+    s.run({.until = 0.2, .dt = 1e-5});
     EXPECT_NEAR(s.particles().at(velocity, 0)[0], 2 * u - v, 1e-4);
     // One that turns: a plane through the origin that sweeps a disc along has v = omega x at the point of contact.
     auto turning =
@@ -182,7 +182,7 @@ TEST(SpringWall, LetsAGrainRoll)
             dem<2>({.mass = m, .radius = r}, spring, Dashpot{.e = 0.5}, Friction{.mu = mu}, Gravity<2>{{0, -g}}),
             Leapfrog{}, Walls(Box<2>{{0, 0}, {2, 1}}, rough, open(top)));
         s.add({0.5, rest}, {u0, 0});
-        s.run({.until = 0.99 * u0 / (3 * mu * g), .dt = 2e-5});
+        s.run({.until = 0.9 * u0 / (3 * mu * g), .dt = 2e-5});
         EXPECT_NEAR(s.wall_force()[0], mu * m * g, 5e-4 * mu * m * g); // it still slips
         EXPECT_NEAR(s.wall_force()[1], -m * g, 1e-9);
         s.run({.until = 0.3, .dt = 2e-5});

@@ -28,7 +28,7 @@ TEST(GranularBox, HasTheEnergyOfAnotherCode)
 {
     const auto start = granular::scattered(262144, r, 0.8, speed, 12345);
     auto box = box_of(start, Leapfrog{}, 2, contact(LinearSpring{.k = k}));
-    EXPECT_NEAR(box.energy().total(), 0.5 * m * speed * speed * 262144, 1e-7);
+    EXPECT_NEAR(box.energy().kinetic, 0.5 * m * speed * speed * 262144, 1e-7); // some discs overlap a wall
     box.run({.steps = 400, .dt = 1e-4});
     box.make_lists_current();
     EXPECT_NEAR(box.energy().total(), 3275.860266, 3275.86e-8); // eight digits
