@@ -46,7 +46,7 @@ def work(row, axis):
 
 def spread(row):
     """Least and most of the repeats, in the clock that is drawn."""
-    if ladder.seconds(row) == row["wall_s_med"]:
+    if ladder.seconds(row) == row["wall_s_min"]:
         return row["wall_s_min"], row["wall_s_max"]
     return row["cpu_s_min"], row["cpu_s_max"]
 
@@ -76,7 +76,8 @@ def panel(axes, rows, err_name, axis="time", look=look_of, name=None, cost=3.0, 
     lo, hi = axes.get_ylim()
     axes.set_ylim(lo, hi * 1.6 if crosses else hi)
     top = axes.get_ylim()[1]
-    for k, (x, colour, _) in enumerate(sorted(crosses)):
+    least = axes.get_xlim()[0]  # what is stopped in its first step has taken no time
+    for k, (x, colour, _) in enumerate(sorted((max(x, least), colour, status) for x, colour, status in crosses)):
         y = top * (top / axes.get_ylim()[0]) ** (-0.035 * (k % 3))
         axes.plot([x], [y], marker="X", ms=9, mfc="none", color=colour, ls="none", clip_on=False)
     for status in sorted({status for _, _, status in crosses}):
