@@ -85,7 +85,9 @@ def panel(axes, rows, err_name, axis="time", look=look_of, name=None, cost=3.0, 
     for which in (axes.xaxis, axes.yaxis):
         lo, hi = which.get_view_interval()
         if hi < 30 * lo:  # less than one and a half decades: the digits between are wanted
-            which.set_minor_formatter(matplotlib.ticker.LogFormatter(minor_thresholds=(2, 0.7)))
+            narrow = hi < 4 * lo
+            which.set_minor_locator(matplotlib.ticker.LogLocator(subs=(1.5, 2, 3, 4, 5, 6, 8) if narrow else (2, 3, 5)))
+            which.set_minor_formatter(lambda v, _: f"{v:.3g}")
             plt.setp(which.get_minorticklabels(), fontsize=7)
     if axis == "time":
         left, right = axes.get_xlim()
@@ -109,6 +111,7 @@ LONG = {
     "amplitude": "amplitude, change in a period [-]",
     "wave": "wave at the end, error over its amplitude [-]",
     "front": "rms of Z/Z_data - 1, shifted [-]",
+    "front_finest": "rms of Z/Z_finest - 1 [-]",
     "density": "largest |rho/rho0 - 1| [-]",
     "restitution": "rms of e - 1 [-]",
     "energy_a_contact": "|mean change of energy| a contact [-]",

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Which points are measured for which figure (numerics D.2); the last number of a Point is a guess of its CPU seconds."""
 from measure import Point
+from names import DAM, SHIFTED
 
-SHIFTED = "sigma2+diffusion+shifting"
 OTHER_RE = (50, 200, 400)  # of the vortices: what the error does with Re, for advise
 
 
@@ -58,7 +58,9 @@ def dam_break(machine, paper):
     levels = (20, 40, 80, 160) if paper else (20, 40, 80)
     points = []
     for f in machine.find("dam_break"):
-        points += [Point("W5", "resolution", f, 12 * (n / 80) ** 3, n=n, **FALL) for n in levels]
+        points += [Point("W5", "resolution", f, 3 * (n / 80) ** 3, n=n, **FALL) for n in levels]
+        if f["family"] == DAM:  # what all are compared with
+            points.append(Point("W5", "reference", f, 3 * (levels[-1] / 40) ** 3, n=2 * levels[-1], **FALL))
         if f["precision"] == "double" and f["formulation"] == "sigma2+diffusion+adami" and f["kernel"] == "cubic_spline":
             for cfl in (0.1, 0.2, 0.4, 0.8, 1.2):
                 points.append(Point("W5", "dt", f, 0.3 / cfl, n=40, **FALL | {"cfl": cfl}))
