@@ -81,12 +81,14 @@ void add_dam(std::string const& kernel, double h_dx, Wall wall)
             return dam;
         };
         FrontOverTime front{dx, a, g, 0, {}, {}};
-        auto judge = [&](auto& dam) -> std::vector<std::pair<std::string, double>> {
+        auto judge = [&](auto& dam) {
             auto const& r = dam.report();
-            return {{"front", front.least_error()},
-                    {"front_unshifted", front.error(0)},
-                    {"density", r.density_change},
-                    {"energy_rise", r.energy_rise}};
+            std::vector<std::pair<std::string, double>> found{{"front", front.least_error()},
+                                                              {"front_unshifted", front.error(0)},
+                                                              {"density", r.density_change},
+                                                              {"energy_rise", r.energy_rise}};
+            for (auto const& row : martin_moyce) found.emplace_back("Z_at_" + text(row[0]), front.at(row[0]));
+            return found;
         };
         return measured<I>(s, {.until = s.until * std::sqrt(a / (2 * g)), .cfl = s.cfl}, make, judge, front);
     };

@@ -18,7 +18,7 @@ def options():
     p.add_argument("--set", choices=("default", "paper"), default="default", help="paper: a level more, and hours")
     p.add_argument("--figures", default=",".join(plan.FIGURES), help="of " + ",".join(plan.FIGURES))
     p.add_argument("--budget", type=float, help="CPU seconds of all figures (default 625; paper 14400)")
-    p.add_argument("--longest", type=float, help="CPU seconds of one run (default 18; paper 600)")
+    p.add_argument("--longest", type=float, help="CPU seconds of one run (default 30; paper 600)")
     p.add_argument("--continue", action="store_true", dest="go_on", help="keep the points that the tables hold")
     p.add_argument("--into", type=Path, help="folder of the page and the tables (default build/bench/work_precision)")
     p.add_argument("--page-only", action="store_true", help="draw again from the tables")
@@ -47,7 +47,7 @@ def main():
             kept = held(table, points) if o.go_on and table.exists() else []
             points = [p for p in points if not any(same(p, r) for r in kept)]
             share = whole * plan.BUDGET[name] / sum(plan.BUDGET.values())
-            rows, skipped = measure(machine, points, share, o.longest or (600 if paper else 18),
+            rows, skipped = measure(machine, points, share, o.longest or (600 if paper else 30),
                                     lambda line: print(line, file=sys.stderr))  # fmt: skip
             facts = json.loads(o.context) | {"date": datetime.date.today().isoformat(), "set": o.set}
             facts["busy"] = busy(kept + rows)

@@ -50,6 +50,9 @@ class FirstBelow(unittest.TestCase):
     def test_is_where_the_line_crosses(self):
         self.assertAlmostEqual(ladder.first_below([1, 10], [0.1, 0.001], 0.01), math.sqrt(10))
 
+    def test_is_the_first_of_several(self):
+        self.assertAlmostEqual(ladder.first_below([1, 10, 100], [0.1, 0.001, 0.0001], 0.01), math.sqrt(10))
+
     def test_does_not_trust_a_dip(self):
         at = ladder.first_below([1, 10, 100], [0.005, 0.1, 0.001], 0.01)
         self.assertGreater(at, 10)
