@@ -45,16 +45,18 @@ scenes::Outcome hopper(Backend backend)
 {
     constexpr double r = 0.01;
     const LinearSpring spring{.k = 2e4};
-    Simulation box(dem<2>({.mass = 0.1, .radius = r}, spring, Dashpot{.e = 0.5}, Friction{.mu = 0.5},
-                          Gravity<2>{{0, -9.81}}),
-                   Leapfrog{}, Walls(Box<2>{{0, 0}, {0.6, 0.8}}, contact(spring)), backend);
-    for (int k = 0; k < 200; ++k) box.add({0.02 + 2.1 * r * (k % 20) + 1e-4 * (k / 20), 0.02 + 2.1 * r * (k / 20)}, {0.1, -0.5});
+    Simulation box(
+        dem<2>({.mass = 0.1, .radius = r}, spring, Dashpot{.e = 0.5}, Friction{.mu = 0.5}, Gravity<2>{{0, -9.81}}),
+        Leapfrog{}, Walls(Box<2>{{0, 0}, {0.6, 0.8}}, contact(spring)), backend);
+    for (int k = 0; k < 200; ++k)
+        box.add({0.02 + 2.1 * r * (k % 20) + 1e-4 * (k / 20), 0.02 + 2.1 * r * (k / 20)}, {0.1, -0.5});
     Pour pour(Box<2>{{0.1, 0.5}, {0.5, 0.7}}, {.rate = 2000, .velocity = {0, -2}, .apart = 2 * r, .every = 7});
     Outlet outlet(Box<2>{{-0.1, -0.1}, {0.08, 0.06}}, {.every = 11});
     box.run({.steps = 600, .dt = 2e-4}, pour, outlet);
     auto bits = std::bit_cast<std::uint64_t>(box.exchanged().energy());
     bits ^= std::uint64_t(pour.particles()) << 32 ^ std::uint64_t(outlet.particles()) << 48;
-    return {box.state_hash() + 31 * bits, outlet.particles() > 5 && pour.particles() > 100 ? box.system().rebuilds() : 0};
+    return {box.state_hash() + 31 * bits,
+            outlet.particles() > 5 && pour.particles() > 100 ? box.system().rebuilds() : 0};
 }
 
 template <class Backend>

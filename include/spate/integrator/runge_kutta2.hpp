@@ -27,7 +27,7 @@ struct RungeKutta2 {
         s.save();
         s.rates(s.all);
         s.advance(s.drifting, s.kicked, dt / 2);
-        s.rates(s.all, dt); // of the whole step
+        s.rates(s.all, dt);                        // of the whole step
         s.advance_saved(s.drifting, s.kicked, dt); // positions with the velocity of the half step
     }
 };
