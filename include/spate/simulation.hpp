@@ -744,7 +744,7 @@ private:
             const auto [name, value] = detail::not_finite(p, i);
             throw BadInput(name + " of particle " + std::to_string(p.id()[i]), text(value), "a finite number");
         }
-        for_each(Q::fields & Fields{density, mass, radius}, [&]<class F>(F f) {
+        for_each(Q::fields & Fields{density, mass}, [&]<class F>(F f) {
             const std::size_t k = detail::first_by_id(p, [&](std::size_t j) { return !(p.at(f, j) > 0); });
             if (k < p.size())
                 throw BadInput(std::string(F::name) + " of particle " + std::to_string(p.id()[k]), text(p.at(f, k)),

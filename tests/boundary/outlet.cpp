@@ -19,7 +19,7 @@ constexpr double r = 0.01, k = 1e5, m = 0.1, g = 9.81;
 auto grains()
 {
     return Simulation(dem<2>({.mass = m, .radius = r}, LinearSpring{.k = k}, Gravity<2>{{0, -g}}), Leapfrog{}, Open{},
-                      Serial{});
+                      Serial{}, Double{}, Watch{.overlap = 2});
 }
 double close_to(double value) { return 1e-14 * std::abs(value); }
 

@@ -17,7 +17,7 @@ template <class... Options>
 auto grains(Options... options)
 {
     return Simulation(dem<2>({.mass = 0.1, .radius = r}, LinearSpring{.k = 1e5}), Leapfrog{}, Periodic(box, options...),
-                      Serial{});
+                      Serial{}, Double{}, Watch{.overlap = 2});
 }
 std::size_t place_of(auto const& sim, std::uint32_t id)
 {

@@ -29,7 +29,7 @@ struct Poly6 {
 };
 
 /// dv_i/dt = k sum_j m_j (v_j - v_i) W_ij / rho_i rho_j
-struct Friction {
+struct MutualDrag {
     static constexpr Fields reads{velocity, density};
     static constexpr Fields reads_j{mass};
     static constexpr Fields adds{acceleration};
@@ -44,7 +44,7 @@ int main()
 {
     constexpr double dx = 0.01, R = 0.1;
     Simulation drop(wcsph(Poly6{.h = 2.6 * dx}, Tait{.rho0 = 1000, .c0 = 20}, Continuity<2>{}, PressureForce<2>{},
-                          Friction{.k = 5e3}),
+                          MutualDrag{.k = 5e3}),
                     RungeKutta2{}, Open{}, Threads{2});
     drop.fill(Box<2>{{-R, -R}, {R, R}}, dx, [](auto& p, std::size_t i) {
         const auto x = p.at(position, i);

@@ -10,7 +10,8 @@
 
 namespace spate {
 
-/// f(i, j, x) for each directed pair of mobile particles in the lists; x = x_i - x_j of the images that meet [m].
+/// f(i, j, x) for each directed pair of mobile particles in the lists; x = x_i - x_j of the images that meet [m]. On many
+/// ranks pairs with another's particle are left out.
 template <class S>
 [[gnu::cold]] void each_listed_pair(S const& system, auto const& f)
 {
@@ -25,7 +26,7 @@ template <class S>
         const auto first = std::size_t(bins.begin(cell));
         for (std::size_t slot = 0; slot < mine.index.size(); ++slot) {
             const std::size_t j = lists.number(mine.index[slot]);
-            if (j == n) continue; // the sentinel
+            if (system.particle_of(j) >= n) continue; // the sentinel; another's
             const auto row = std::int32_t(slot / W);
             const auto block =
                 std::size_t(std::upper_bound(mine.begin.begin(), mine.begin.end(), row) - mine.begin.begin()) - 1;

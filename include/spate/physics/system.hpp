@@ -600,6 +600,15 @@ public:
         });
         return total;
     }
+    /// The mobile particle behind a record other than the sentinel; others' particles are numbered from n + 1.
+    std::size_t particle_of(std::size_t j) const
+    {
+        auto const& of = species<0>().bins.images().of;
+        const std::size_t n = mobile().size();
+        if constexpr (!alone)
+            if (j >= std::size_t(parts_.foreign(0).first)) return n + 1 + parts_.foreign(0).number_of(j);
+        return j < n ? j : j - n - 1 < of.size() ? std::size_t(of[j - n - 1]) : n;
+    }
     /// Bytes of all that is kept for the particles: columns, records, lists, bins.
     [[nodiscard, gnu::cold]] std::size_t bytes() const
     {
@@ -833,15 +842,6 @@ private:
             total += mine;
         });
         return ranks().all(total, agree::Sum{}).value();
-    }
-    /// The mobile particle behind a record other than the sentinel; others' particles are numbered from n + 1.
-    std::size_t particle_of(std::size_t j) const
-    {
-        auto const& of = species<0>().bins.images().of;
-        const std::size_t n = mobile().size();
-        if constexpr (!alone)
-            if (j >= std::size_t(parts_.foreign(0).first)) return n + 1 + parts_.foreign(0).number_of(j);
-        return j < n ? j : j - n - 1 < of.size() ? std::size_t(of[j - n - 1]) : n;
     }
     /// Of the mobile particle behind a record other than the sentinel, as it is now.
     auto double_record_of(std::size_t j) const
