@@ -9,4 +9,4 @@ read -ra flags <<< "$(pkg-config --cflags --libs "$hdf5")"
 clang++ -std=c++20 -O1 -gline-tables-only -fno-omit-frame-pointer -march=native -ffp-contract=off -fno-math-errno -fopenmp \
     -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=all -Iinclude -isystem /usr/include/eigen3 \
     tests/fuzz/checkpoint.cpp -o "$out/checkpoint" "${flags[@]}"
-"$out/checkpoint" -max_total_time="${1:-60}" -max_len=4096 -artifact_prefix="$out/" -print_final_stats=1 "$out/corpus"
+"$out/checkpoint" -max_total_time="${1:-60}" -max_len=4096 -len_control=0 -artifact_prefix="$out/" -print_final_stats=1 "$out/corpus"
