@@ -19,6 +19,7 @@
 #include <mutex>
 #include <optional>
 #include <set>
+#include <stdexcept>
 
 namespace spate {
 
@@ -498,6 +499,9 @@ public:
         ExactSum total;
         std::mutex lock;
         if constexpr (M::planner.meet(0, 0) && has_pair_energy) {
+            if (alone && species<0>().bins.cells() > 0 && !lists_know_all())
+                throw std::logic_error("spate: particles came or went since the lists were built; call "
+                                       "make_lists_current() before energy()");
             if constexpr (!alone) bring_records<0, M::mask(read_for_energy() & ParticlesOf<0>::fields)>();
             backend_.for_each(species<0>().bins.cells(), [&](std::size_t cell) {
                 const ExactSum mine = pair_energy_of(cell, share);
