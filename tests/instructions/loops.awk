@@ -1,8 +1,9 @@
-# From `objdump -dC --no-show-raw-insn` of an object: for each function with a packed square root, the smallest loop around
+# From `objdump -dC --no-show-raw-insn` of an object: for each sweep with a packed square root, the smallest loop around
 # it. One line a loop: its terms (P of every fluid, L laminar, A artificial viscosity, D density diffusion, M central
 # viscosity, T tensile correction, X XSPH), instructions, stores to the stack, loads from it, divisions.
 function operands(text) { sub(/^[^ \t]+[ \t]+/, "", text); return text }
 function finish(    r, k, to, from, at, n, stores, loads, divisions, text, terms) {
+    if (name !~ /sweep/) return
     for (r = 0; r < count; ++r) {
         if (line[r] !~ /^v?sqrtp[ds]/) continue
         from = -1; at = -1
