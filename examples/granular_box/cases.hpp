@@ -69,6 +69,7 @@ struct Spring {
 /// Discs of the seed deck: no friction, no loss, no gravity.
 struct Seed {
     static constexpr int dim = 2;
+    static constexpr spate::Neighbours neighbours = spate::Discs::neighbours;
     static constexpr bool rough = false;
     inline static const Numbers numbers{.particles = 262144};
     inline static const example::Options defaults{
@@ -89,6 +90,8 @@ struct Seed {
 template <int Dim>
 struct Rough {
     static constexpr int dim = Dim;
+    /// Dense and slow: what is kept of a pair in the skin costs more than a rebuild.
+    static constexpr spate::Neighbours neighbours{.skin = 0.1, .finer = 1, .window = 1};
     static constexpr bool rough = true;
     static auto contact(Numbers const& n)
     {
@@ -98,17 +101,17 @@ struct Rough {
     static auto forces(Numbers const& n) { return std::tuple{n.gravity<Dim>()}; }
     static auto walls(auto const&... term) { return std::tuple{spate::contact(term...), spate::open(spate::top)}; }
 };
-/// A slender stack of discs that falls into a heap.
+/// A stack of discs, as high as wide, that falls into a heap and rests.
 struct Pile : Rough<2> {
-    inline static const Numbers numbers{.particles = 2000};
+    inline static const Numbers numbers{.particles = 4000, .restitution = 0.3};
     inline static const example::Options defaults{.until = 3, .history_every = 0.01};
     static Start<2> start(Numbers const& n, std::uint64_t seed)
     {
         if (!n.start.empty()) return n.from_file<2>();
-        const double d = 2 * n.radius, wide = d * std::sqrt(n.particles), floor = 5 * wide;
-        auto s = stacked<2>(std::size_t(n.particles), {{floor / 2 - wide / 4, 0}, {floor / 2 + wide / 4, 4 * wide}},
-                            n.radius, 0.1, seed);
-        s.box = spate::Box<2>{{0, 0}, {floor, 4 * wide}};
+        const double wide = 2 * n.radius * std::sqrt(n.particles), floor = 5 * wide;
+        const spate::Box<2> stack{{2 * wide, 0}, {3 * wide, wide}};
+        auto s = stacked<2>(std::size_t(n.particles), stack, n.radius, 0.05, seed);
+        s.box = spate::Box<2>{{0, 0}, {floor, 1.5 * wide}};
         return s;
     }
 };
