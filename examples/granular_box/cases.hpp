@@ -42,6 +42,15 @@ struct Numbers {
         if (rough) line.number("--friction", friction, "coefficient", "-");
         if (rough) line.number("--tilt", tilt, "of gravity towards x", "degrees");
     }
+    void check() const
+    {
+        spate::require_positive("stiffness", stiffness, "N/m");
+        spate::require_positive("mass", mass, "kg");
+        spate::require_positive("radius", radius, "m");
+        spate::require(restitution >= 0 && restitution <= 1, "restitution", restitution, "0 to 1 [-]");
+        spate::require_non_negative("friction", friction, "-");
+        spate::require(std::abs(tilt) <= 90, "tilt", tilt, "-90 to 90 degrees");
+    }
     /// Of a file, if one is named.
     template <int Dim>
     [[nodiscard]] Start<Dim> from_file() const

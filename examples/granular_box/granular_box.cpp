@@ -16,6 +16,7 @@ int main(int argc, char** argv)
     example.command_line().seed();
 
     return example.main(argc, argv, [&] {
+        n.check();
         const auto start = Case::start(n, o.seed);
         const auto contact = Case::contact(n); // m dv_i/dt = sum_j k overlap_ij n_ij [- c (v_ij . n) n + friction]
         const auto terms = std::tuple_cat(contact, Case::forces(n)); // [+ m g]
