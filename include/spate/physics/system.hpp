@@ -1388,6 +1388,7 @@ private:
         each_species([&](auto s) {
             auto& x = species<s()>();
             if (saves_) x.start.resize(x.particles.size());
+            x.particles.fit();
             x.particles.pad();
         });
     }
