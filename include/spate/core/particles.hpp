@@ -241,6 +241,17 @@ public:
             for (auto& a : column(f)) detail::fill_from(a, size(), a[size() - 1]);
         });
     }
+    /// Gives back room that growth one by one has left, where it is much.
+    void fit()
+    {
+        auto one = [](auto& a) {
+            if (2 * a.capacity() > 3 * a.size()) a.shrink_to_fit();
+        };
+        for_each(fields, [&](auto f) {
+            for (auto& a : column(f)) one(a);
+        });
+        one(id_);
+    }
     /// Bytes in use by columns and ids.
     [[nodiscard]] std::size_t bytes() const
     {

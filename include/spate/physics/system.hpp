@@ -1414,6 +1414,7 @@ private:
         each_species([&](auto s) {
             auto& x = species<s()>();
             if (saves_) x.start.resize(x.particles.size());
+            x.particles.fit();
             x.particles.pad();
         });
     }
