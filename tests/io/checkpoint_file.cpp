@@ -173,6 +173,16 @@ TEST_F(CheckpointFileTest, IsRefusedOrTakenButNeverHalfTaken)
     EXPECT_GT(refused, 150);
     EXPECT_GT(taken, 10); // such as another velocity of a particle: nobody can tell
 }
+TEST_F(CheckpointFileTest, IsRefusedWithoutAnyOfItsTables)
+{
+    for (const std::int64_t have_lists : {1, 0})
+        for (auto const& [name, table] : state.tables) {
+            io::State less = state;
+            less.put_one("run/have_lists", have_lists);
+            less.tables.erase(name);
+            EXPECT_NE(said_by(tank, less), "") << name;
+        }
+}
 template <class Precision = Double, class I = RungeKutta2>
 auto other_tank(double c0, double top_of_box, auto viscosity)
 {

@@ -39,6 +39,10 @@ public:
             state.refuse("a state at which a run stopped: it is there to be looked at, not to go on from");
         check_numbers();
         scene.system().each_species([&](auto s) { check_particles<s()>(); });
+        for (std::size_t s = 0; s < count; ++s) {
+            (void)state.table<std::int32_t>(of_species(int(s), "skin_place"), dim, skin(s).size());
+            local_ = local_ || !skin(s).empty();
+        }
         if (state.one<std::int64_t>("run/have_lists") != 0)
             scene.system().each_species([&](auto s) { check_skins<s()>(); });
         scene.system().each_kept([&](auto s, auto q, auto const& pairs) {
@@ -53,12 +57,7 @@ public:
         return box;
     }
     /// Whether skins differ by place.
-    [[nodiscard]] bool local() const
-    {
-        bool any = false;
-        for (std::size_t s = 0; s < count; ++s) any = any || !skin(s).empty();
-        return any;
-    }
+    [[nodiscard]] bool local() const { return local_; }
     /// Of a patch, which was checked to be there.
     [[nodiscard]] double skin_of(std::size_t s, Place const& place) const
     {
@@ -166,9 +165,8 @@ private:
         }
         std::sort(places.begin(), places.end());
         places.erase(std::unique(places.begin(), places.end()), places.end());
-        if (!local()) return;
+        if (!local_) return;
         auto const& mine = skin(s);
-        (void)state_.table<std::int32_t>(of_species(s, "skin_place"), dim, mine.size());
         bool fine = mine.size() == places.size();
         for (std::size_t k = 0; fine && k < places.size(); ++k)
             fine = places[k] == place_of(s, k) && mine[k] > 0 && mine[k] <= scene_.system().neighbours().closed_in();
@@ -192,6 +190,7 @@ private:
 
     Scene const& scene_;
     State const& state_;
+    bool local_ = false;
 };
 
 } // namespace spate::io::detail
