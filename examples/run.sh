@@ -159,8 +159,8 @@ if [[ $build_only == yes ]]; then
     exit 0
 fi
 
-# Threads that wait must not spin: another program may need the core.
-export OMP_WAIT_POLICY=${OMP_WAIT_POLICY-passive}
+# Threads that wait spin for a tenth of a millisecond, no longer: another program may need the core.
+[[ -v OMP_WAIT_POLICY ]] || export OMP_WAIT_POLICY=passive GOMP_SPINCOUNT=10000
 # Processes are started here, unless mpirun or srun has started this script.
 start=("$binary")
 if [[ ${value[--backend]-} == mpi && $help == no && -z ${OMPI_COMM_WORLD_SIZE-}${PMI_SIZE-}${SLURM_STEP_ID-} ]]; then
