@@ -993,7 +993,7 @@ private:
     {
         constexpr std::size_t most = 100;
         if (I::saves || kept_rebuild_ != system_.rebuilds() || kept_dt_.size() >= most) {
-            if constexpr (!I::saves) system_.save();
+            if constexpr (!I::saves) system_.keep();
             kept_dt_.clear();
             kept_rebuild_ = system_.rebuilds(), kept_step_ = step_, kept_time_ = time_;
         }

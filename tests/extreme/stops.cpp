@@ -44,7 +44,8 @@ auto scene(int integrator, double root, double sting)
     chosen::integrator = integrator;
     auto fluid =
         wcsph(CubicSpline<2>{1.3 * dx}, Tait{rho0, c0}, Continuity<2>{}, PressureForce<2>{}, Root{root}, Sting{sting});
-    Simulation sim(fluid, chosen::AnyIntegrator{}, Periodic(Box<2>{{{0, 0}}, {{1, 1}}}), Threads{2});
+    Simulation sim(fluid, chosen::AnyIntegrator{}, Periodic(Box<2>{{{0, 0}}, {{1, 1}}}), Threads{2}, Double{},
+                   TracingWatch{});
     sim.fill(Box<2>{{{0.4, 0.4}}, {{0.6, 0.6}}}, dx);
     sim.add({{0.3, 0.1}}, {{-1, 0}});   // id 100: on its way to the left
     sim.add({{0.8, 0.8}}, {{0, 0}});    // 101

@@ -417,10 +417,15 @@ public:
         advance_from<false>(dt, first, then);
         if (Fields<F..., G...>::template contains<Position>) due_ += dt, moved_ += dt;
     }
-    /// Remembers all evolving fields as the start of the step.
+    /// Remembers all evolving fields as the start of the step; until advance_saved() a state is only tried.
     void save()
     {
         trial_ = true, moved_ = 0;
+        keep();
+    }
+    /// Remembers all evolving fields, for restore().
+    void keep()
+    {
         each_species([&](auto s) {
             auto& x = species<s()>();
             for_each(M::template evolving<s()>(), [&](auto f) {
@@ -429,8 +434,8 @@ public:
             });
         });
     }
-    /// The evolving fields as they were when save() was called, what derives from them zero; false if the particles are others
-    /// now.
+    /// The evolving fields as they were when save() or keep() was called, what derives from them zero; false if the particles
+    /// are others now.
     [[gnu::cold]] bool restore()
     {
         bool same = true;
