@@ -18,7 +18,7 @@ constexpr double r = 0.01, m = 0.1, k = 1e5, speed = 0.5; // m, kg, N/m, m/s
 template <class I, class... WallOptions>
 auto box_of(granular::Start<2> const& start, I integrator, int threads, WallOptions... options)
 {
-    Simulation box(dem<2>({.mass = m, .radius = r}, LinearSpring{.k = k}), integrator, Walls(start.box, options...),
+    Simulation box(dem<2>({.mass = m, .radius = r}, LinearSpring{.k = k}), integrator, Walls(*start.box, options...),
                    Threads{.count = threads});
     for (std::size_t i = 0; i < start.x.size(); ++i) box.add(start.x[i], start.v[i]);
     return box;
@@ -51,7 +51,7 @@ TEST(GranularBox, RefusesAFractionThatCannotBePacked)
         EXPECT_THROW(granular::scattered(1000, r, fraction, speed, 1), BadInput);
     for (double fraction : {0.01, 0.3, 0.59, 0.6, 0.8}) {
         const auto start = granular::scattered(1000, r, fraction, speed, 1);
-        EXPECT_NEAR(1000 * std::numbers::pi * r * r / (start.box.hi[0] * start.box.hi[1]), fraction, 1e-12);
+        EXPECT_NEAR(1000 * std::numbers::pi * r * r / (start.box->hi[0] * start.box->hi[1]), fraction, 1e-12);
         double nearest = 1;
         for (std::size_t i = 0; i < start.x.size(); ++i)
             for (std::size_t j = 0; j < i; ++j) nearest = std::min(nearest, (start.x[i] - start.x[j]).squaredNorm());
