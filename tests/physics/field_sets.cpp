@@ -169,7 +169,7 @@ static_assert(same(Damped::record, Fields{position, velocity}) && Damped::S::kep
 // Of many sizes: mass and radius are columns; a neighbour sends its mass to the dashpot.
 [[maybe_unused]] auto mixture()
 {
-    return dem<3>(Polydisperse{.largest = 0.01}, LinearSpring{.k = 1e5}, Dashpot{.e = 0.7}, Friction{.mu = 0.5},
+    return dem<3>(Mixture{.largest = 0.01}, LinearSpring{.k = 1e5}, Dashpot{.e = 0.7}, Friction{.mu = 0.5},
                   Dissipation{});
 }
 using Assorted = decltype(scene(mixture(), Open{}));
