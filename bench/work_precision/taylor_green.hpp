@@ -90,5 +90,13 @@ void add_shifted(std::string const& kernel, double h_dx)
     };
     add_vortices<I, Precision>(kernel, h_dx, "sigma" + std::to_string(sigma) + "+diffusion+shifting", fluid);
 }
+/// One kernel with each integrator.
+template <class K>
+void add_vortices_with(std::string const& kernel, double h_dx)
+{
+    add_shifted<2, K, RungeKutta2, Double>(kernel, h_dx);
+    add_shifted<2, K, Leapfrog, Double>(kernel, h_dx);
+    add_shifted<2, K, SymplecticEuler, Double>(kernel, h_dx);
+}
 
 } // namespace work_precision

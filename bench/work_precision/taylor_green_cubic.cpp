@@ -3,12 +3,6 @@
 
 namespace work_precision {
 namespace {
-const bool added = [] {
-    const std::string kernel = "cubic_spline";
-    add_shifted<2, CubicSpline<2>, RungeKutta2, Double>(kernel, 1.3);
-    add_shifted<2, CubicSpline<2>, Leapfrog, Double>(kernel, 1.3);
-    add_shifted<2, CubicSpline<2>, SymplecticEuler, Double>(kernel, 1.3);
-    return true;
-}();
+const bool added = (add_vortices_with<CubicSpline<2>>("cubic_spline", 1.3), true);
 } // namespace
 } // namespace work_precision

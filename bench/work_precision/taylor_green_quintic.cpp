@@ -3,12 +3,6 @@
 
 namespace work_precision {
 namespace {
-const bool added = [] {
-    const std::string kernel = "quintic_spline";
-    add_shifted<2, QuinticSpline<2>, RungeKutta2, Double>(kernel, 1);
-    add_shifted<2, QuinticSpline<2>, Leapfrog, Double>(kernel, 1);
-    add_shifted<2, QuinticSpline<2>, SymplecticEuler, Double>(kernel, 1);
-    return true;
-}();
+const bool added = (add_vortices_with<QuinticSpline<2>>("quintic_spline", 1), true);
 } // namespace
 } // namespace work_precision

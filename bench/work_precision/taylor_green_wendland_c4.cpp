@@ -3,12 +3,6 @@
 
 namespace work_precision {
 namespace {
-const bool added = [] {
-    const std::string kernel = "wendland_c4";
-    add_shifted<2, WendlandC4<2>, RungeKutta2, Double>(kernel, 2);
-    add_shifted<2, WendlandC4<2>, Leapfrog, Double>(kernel, 2);
-    add_shifted<2, WendlandC4<2>, SymplecticEuler, Double>(kernel, 2);
-    return true;
-}();
+const bool added = (add_vortices_with<WendlandC4<2>>("wendland_c4", 2), true);
 } // namespace
 } // namespace work_precision
