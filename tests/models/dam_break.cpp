@@ -3,7 +3,7 @@
 // the front alone passes even for runs that are blowing up, so energy, density and leaks are looked at as well.
 #include "models/known_gap.hpp"
 #include "models/results.hpp"
-#include "oracle/table.hpp"
+#include "models/series.hpp"
 
 #include "spate/measure/front.hpp"
 #include "spate/measure/gauge.hpp"
@@ -17,46 +17,14 @@
 namespace {
 
 using namespace spate;
+using models::Series;
 
 constexpr double a = 0.3, H = 2 * a, g = 9.81; // width and height of the column [m], gravity [m/s^2]
 
-/// A quantity over time, or a table of the experiment, in the units of Martin & Moyce.
-struct Curve {
-    std::vector<double> t, y;
-
-    [[nodiscard]] double at(double time) const // linear between points
-    {
-        const auto k = std::size_t(std::clamp(std::upper_bound(t.begin(), t.end(), time) - t.begin(), std::ptrdiff_t(1),
-                                              std::ptrdiff_t(t.size()) - 1));
-        return y[k - 1] + (y[k] - y[k - 1]) * (time - t[k - 1]) / (t[k] - t[k - 1]);
-    }
-};
-/// \param last  rows of later times are left out
-Curve measured(std::string const& file, std::string const& time, std::string const& value, double last)
-{
-    Curve c;
-    for (auto const& row : oracle::table(file)) {
-        if (std::stod(row.at(time)) > last) continue;
-        c.t.push_back(std::stod(row.at(time)));
-        c.y.push_back(std::stod(row.at(value)));
-    }
-    return c;
-}
-/// Of a straight line through the points from a time on, by least squares.
-double slope(Curve const& c, double from)
-{
-    double n = 0, st = 0, sy = 0, stt = 0, sty = 0;
-    for (std::size_t k = 0; k < c.t.size(); ++k) {
-        if (c.t[k] < from) continue;
-        n += 1, st += c.t[k], sy += c.y[k], stt += c.t[k] * c.t[k], sty += c.t[k] * c.y[k];
-    }
-    return (n * sty - st * sy) / (n * stt - st * st);
-}
-
 /// What a run shows, to T = t sqrt(2 g/a) = 3.5, before the front meets the end of the tank.
 struct Fall {
-    Curve front;                  // Z = x/a over T
-    Curve height;                 // h/H at the wall behind over tau = t sqrt(g/a)
+    Series front;                 // Z = x/a over T
+    Series height;                // h/H at the wall behind over tau = t sqrt(g/a)
     double energy_rise = 0;       // largest total energy over that of the start [-]
     double energy_left = 0;       // at the end [-]
     double density = 0;           // largest |rho/rho0 - 1| [-]
@@ -69,20 +37,7 @@ struct Fall {
     double height_difference = 0; // largest of the height at the wall, to tau = 2.45 [-]
 };
 
-/// The front at the data's times, started late by a shift: the gate of the experiment takes a moment to open.
-Curve shifted(Curve const& front, Curve const& data, double shift)
-{
-    Curve c{data.t, {}};
-    for (double t : data.t) c.y.push_back(front.at(t - shift));
-    return c;
-}
-double relative_error(Curve const& c, Curve const& data)
-{
-    double sum = 0;
-    for (std::size_t k = 0; k < data.t.size(); ++k) sum += std::pow(c.y[k] / data.y[k] - 1, 2);
-    return std::sqrt(sum / double(data.t.size()));
-}
-double error_of_norm(Curve const& c, Curve const& data)
+double error_of_norm(Series const& c, Series const& data)
 {
     double sum = 0, norm = 0;
     for (std::size_t k = 0; k < data.t.size(); ++k)
@@ -91,16 +46,13 @@ double error_of_norm(Curve const& c, Curve const& data)
 }
 void compare(Fall& f)
 {
-    const Curve data = measured("martin_moyce_1952_n2_2_front.csv", "T", "Z", 3.4);
+    const Series data = models::column_of("martin_moyce_1952_n2_2_front.csv", "T", "Z", 3.4);
     f.unshifted = relative_error(shifted(f.front, data, 0), data);
-    f.error = std::numeric_limits<double>::infinity();
-    for (double shift = 0.05; shift < 0.3005; shift += 0.001) {
-        const double e = relative_error(shifted(f.front, data, shift), data);
-        if (e < f.error) f.error = e, f.shift = shift;
-    }
+    const auto best = models::best_shift(f.front, data);
+    f.shift = best.shift, f.error = best.error;
     f.of_norm = error_of_norm(shifted(f.front, data, f.shift), data);
-    f.speed = slope(shifted(f.front, data, f.shift), 1.43);
-    const Curve heights = measured("martin_moyce_1952_n2_2_height.csv", "tau", "H", 2.45);
+    f.speed = models::slope(shifted(f.front, data, f.shift), 1.43);
+    const Series heights = models::column_of("martin_moyce_1952_n2_2_height.csv", "tau", "H", 2.45);
     for (std::size_t k = 0; k < heights.t.size(); ++k)
         f.height_difference = std::max(f.height_difference, std::abs(f.height.at(heights.t[k]) - heights.y[k]));
 }
@@ -127,8 +79,8 @@ Fall fall(int n, Wall wall, double alpha = 0.02)
         const double t = 0.02 * k * std::sqrt(a / (2 * g));
         if (k > 0) dam.run({.until = t, .cfl = 0.2});
         const double leaks = Leaks{dx}(dam), T = 0.02 * k, tau = T / std::sqrt(2);
-        f.front.t.push_back(T), f.front.y.push_back(Front{dx}(dam) / a);
-        f.height.t.push_back(tau), f.height.y.push_back(Gauge<2>{"", {0, 0}, dx}(dam) / H);
+        f.front.add(T, Front{dx}(dam) / a);
+        f.height.add(tau, Gauge<2>{"", {0, 0}, dx}(dam) / H);
         f.energy_left = dam.energy().total() / start;
         f.energy_rise = std::max(f.energy_rise, f.energy_left - 1);
         f.leaks = std::max(f.leaks, leaks);
@@ -152,7 +104,7 @@ Fall fall(int n, Wall wall, double alpha = 0.02)
 
 TEST(DamBreak, TableIsThatOfMartinAndMoyce)
 {
-    const Curve data = measured("martin_moyce_1952_n2_2_front.csv", "T", "Z", 3.4);
+    const Series data = models::column_of("martin_moyce_1952_n2_2_front.csv", "T", "Z", 3.4);
     ASSERT_EQ(data.t.size(), 15u);
     EXPECT_NEAR(slope(data, 1.43), 1.319, 5e-4);
     EXPECT_EQ(data.at(0.41), 1.11);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace models {
@@ -43,12 +44,54 @@ struct Series {
     [[nodiscard]] double peak() const { return *std::max_element(y.begin(), y.end()); }
 };
 
+/// Of a straight line through the points from a time on, by least squares.
+inline double slope(Series const& c, double from)
+{
+    double n = 0, st = 0, sy = 0, stt = 0, sty = 0;
+    for (std::size_t k = 0; k < c.t.size(); ++k) {
+        if (c.t[k] < from) continue;
+        n += 1, st += c.t[k], sy += c.y[k], stt += c.t[k] * c.t[k], sty += c.t[k] * c.y[k];
+    }
+    return (n * sty - st * sy) / (n * stt - st * st);
+}
+
 /// Two columns of a table of tests/data.
-inline Series column_of(std::string const& file, std::string const& time, std::string const& value)
+/// \param last  rows of later times are left out
+inline Series column_of(std::string const& file, std::string const& time, std::string const& value,
+                        double last = std::numeric_limits<double>::infinity())
 {
     Series c;
-    for (auto const& row : spate::oracle::table(file)) c.add(std::stod(row.at(time)), std::stod(row.at(value)));
+    for (auto const& row : spate::oracle::table(file))
+        if (std::stod(row.at(time)) <= last) c.add(std::stod(row.at(time)), std::stod(row.at(value)));
     return c;
+}
+
+/// A front at the data's times, started late by a shift: the gate of the experiment takes a moment to open.
+inline Series shifted(Series const& front, Series const& data, double shift)
+{
+    Series c;
+    for (double t : data.t) c.add(t, front.at(t - shift));
+    return c;
+}
+/// rms of c/data - 1 over the data's points.
+inline double relative_error(Series const& c, Series const& data)
+{
+    double sum = 0;
+    for (std::size_t k = 0; k < data.t.size(); ++k) sum += std::pow(c.y[k] / data.y[k] - 1, 2);
+    return std::sqrt(sum / double(data.t.size()));
+}
+/// The shift of time, of those from `first` to 0.30, that makes the relative error least, and that error.
+struct BestShift {
+    double shift = 0, error = std::numeric_limits<double>::infinity();
+};
+inline BestShift best_shift(Series const& front, Series const& data, double first = 0.05)
+{
+    BestShift best;
+    for (double shift = first; shift < 0.3005; shift += 0.001) {
+        const double e = relative_error(shifted(front, data, shift), data);
+        if (e < best.error) best = {shift, e};
+    }
+    return best;
 }
 
 /// An output of Simulation::run: what each measure reads, at even times; NaN (a sensor that is dry) is 0.

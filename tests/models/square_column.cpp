@@ -15,35 +15,14 @@ namespace {
 using namespace spate;
 using models::Series;
 
-struct Match {
-    double shift, error, slope, of_data; ///< [-]
-};
-double slope(Series const& c, double from) // by least squares
-{
-    double n = 0, st = 0, sy = 0, stt = 0, sty = 0;
-    for (std::size_t k = 0; k < c.t.size(); ++k) {
-        if (c.t[k] < from) continue;
-        n += 1, st += c.t[k], sy += c.y[k], stt += c.t[k] * c.t[k], sty += c.t[k] * c.y[k];
-    }
-    return (n * sty - st * sy) / (n * stt - st * st);
-}
-/// The rms relative error with the start late by a shift, the best of 0 to 0.3: a gate takes a moment to open.
+/// With the start late by the best shift of 0 to 0.3.
 void match(Series const& front, std::string const& file, double from)
 {
     const Series data = models::column_of(file, "T", "Z");
-    Match best{0, std::numeric_limits<double>::infinity(), 0, slope(data, from)};
-    for (double shift = 0; shift < 0.3005; shift += 0.001) {
-        Series late{data.t, {}};
-        double sum = 0;
-        for (std::size_t k = 0; k < data.t.size(); ++k) {
-            late.y.push_back(front.at(std::max(data.t[k] - shift, 0.0)));
-            sum += std::pow(late.y[k] / data.y[k] - 1, 2);
-        }
-        const double error = std::sqrt(sum / double(data.t.size()));
-        if (error < best.error) best.shift = shift, best.error = error, best.slope = slope(late, from);
-    }
+    const auto best = models::best_shift(front, data, 0);
+    const Series late = models::shifted(front, data, best.shift);
     std::printf("%s: rms relative error %.2f %% at shift %.3f, slope %.3f (data %.3f)\n", file.c_str(),
-                100 * best.error, best.shift, best.slope, best.of_data);
+                100 * best.error, best.shift, models::slope(late, from), models::slope(data, from));
 }
 
 TEST(SquareColumn, IsBetweenMartinAndMoyceAndLobovsky)
