@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Grains against closed solutions: bounces, two in a press, a ball that slips and then rolls, a gas that cools.
+// Grains against closed solutions: bounces, two in a press, a ball that slips and then rolls.
 #include "physics/grains.hpp"
 
 #include <gtest/gtest.h>
@@ -145,81 +145,6 @@ TEST(Rolling, BeginsWhenFrictionHasSpentTheSlip)
     EXPECT_NEAR(rolls / when, 1, 5e-3);
     RecordProperty("speed", std::to_string(at(sim, 0, velocity, 0) / (2 * u0 / 3)));
     RecordProperty("rolls_at", std::to_string(rolls / when));
-}
-
-/// N discs in a periodic box at a fraction, at random speeds of 0.5 m/s.
-template <class I = Leapfrog, class... T>
-auto gas(int side, double fraction, T... term)
-{
-    const double r = 0.01, pitch = std::sqrt(pi * r * r / fraction);
-    Simulation sim(dem<2>({.mass = 0.1, .radius = r}, LinearSpring{.k = 1e5}, term...), I{},
-                   Periodic(Box<2>{{}, {{side * pitch, side * pitch}}}), Serial{}, Double{}, NoWatch{});
-    oracle::Dice dice(17);
-    for (int n = 0; n < side * side; ++n) {
-        const double angle = dice.real(0, 2 * pi);
-        sim.add({{(n % side + 0.5) * pitch, (n / side + 0.5) * pitch}},
-                {{0.5 * std::cos(angle), 0.5 * std::sin(angle)}});
-    }
-    return sim;
-}
-// Numerics V51: 1024 discs, a fraction of 0.2, at least 1e5 contacts: energy walks at random, within 1 %.
-TEST(LongGas, OfElasticDiscsKeepsItsEnergy)
-{
-    auto sim = gas(32, 0.2);
-    const double e0 = 0.5 * 0.1 * 0.25 * 1024, dt = 1e-4;
-    std::vector<double> x, y;
-    for (int n = 0; n < 1000; ++n) {
-        sim.run({.steps = 100, .dt = dt});
-        sim.make_lists_current();
-        x.push_back(sim.time()), y.push_back(sim.energy().total() / e0 - 1);
-    }
-    EXPECT_LE(
-        std::abs(*std::max_element(y.begin(), y.end(), [](double a, double b) { return std::abs(a) < std::abs(b); })),
-        1e-2);
-    double mx = 0, my = 0, sxx = 0, sxy = 0, square = 0;
-    for (std::size_t n = 0; n < x.size(); ++n) mx += x[n] / double(x.size()), my += y[n] / double(x.size());
-    for (std::size_t n = 0; n < x.size(); ++n) sxx += (x[n] - mx) * (x[n] - mx), sxy += (x[n] - mx) * (y[n] - my);
-    for (std::size_t n = 1; n < x.size(); ++n) square += (y[n] - y[n - 1]) * (y[n] - y[n - 1]); // of the walk
-    const double walk = std::sqrt(square / x.back());                                           // per root second
-    const double slope = sxy / sxx, of_a_walk = walk * std::sqrt(1.2 / x.back()); // of a fit to one: sqrt(6/5 s^2/T)
-    EXPECT_LE(std::abs(slope), 3 * of_a_walk);
-    RecordProperty("per_root_second", std::to_string(walk));
-    std::printf("energy walks %.2e per root second; slope %.2e +- %.2e per second\n", walk, slope, of_a_walk);
-}
-// Haff (1983): T = T0/(1 + t/tau)^2, 1/tau = (1 - e^2) omega_E/(2 d), omega_E = 2 sqrt(pi) n sigma chi sqrt(T/m), in the
-// homogeneous phase, t <= 5 tau: within 5 % (numerics V54). The midpoint method, since e of a dashpot is of first order under
-// leapfrog. chi of Verlet & Levesque (1982): (1 - 7 phi/16)/(1 - phi)^2.
-TEST(LongGas, OfInelasticDiscsCoolsByHaff)
-{
-    const double e = 0.9, fraction = 0.1, m = 0.1, r = 0.01;
-    auto sim = gas<RungeKutta2>(32, fraction, Dashpot{.e = e});
-    auto elastic = gas(32, fraction); // its velocities mix first: the law is for a Maxwellian
-    elastic.run({.until = 1.5, .dt = 8e-5});
-    auto& p = sim.particles();
-    const Vec<2, double> drift =
-        (1 / (m * double(p.size()))) * momentum<2>(elastic); // cools no more than the box moves
-    for (std::size_t i = 0; i < p.size(); ++i) {
-        const std::size_t from = index_of(elastic, p.id()[i]);
-        p.put(position, i, elastic.particles().at(position, from)),
-            p.put(velocity, i, elastic.particles().at(velocity, from) - drift);
-    }
-    sim.prepare();
-    auto temperature = [&] {
-        double sum = 0;
-        for (std::size_t i = 0; i < p.size(); ++i) sum += 0.5 * m * p.at(velocity, i).squaredNorm();
-        return sum / double(p.size()); // m <v^2>/2 in two dimensions
-    };
-    const double n = fraction / (pi * r * r), chi = (1 - 7 * fraction / 16) / ((1 - fraction) * (1 - fraction));
-    const double t0 = temperature();
-    const double rate = 2 * std::sqrt(pi) * n * 2 * r * chi * std::sqrt(t0 / m), tau = 4 / ((1 - e * e) * rate);
-    double furthest = 0;
-    for (int k = 1; k <= 20; ++k) {
-        sim.run({.until = 5 * tau * k / 20, .dt = 4e-5});
-        const double law = t0 / std::pow(1 + sim.time() / tau, 2);
-        furthest = std::max(furthest, std::abs(temperature() / law - 1));
-    }
-    EXPECT_LE(furthest, 0.05);
-    std::printf("Haff: furthest %.3f, tau %.2f s\n", furthest, tau);
 }
 
 } // namespace

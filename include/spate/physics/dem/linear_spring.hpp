@@ -18,7 +18,7 @@ struct LinearSpring {
     static constexpr Fields adds{acceleration};
     double k; ///< contact stiffness [N/m]
 
-    [[gnu::cold]] void check() const { require_non_negative("LinearSpring.k", k, "N/m"); }
+    [[gnu::cold]] void check() const { require_positive("LinearSpring.k", k, "N/m"); }
     /// Angular frequency of a contact between two particles of mass m [kg]: [1/s].
     [[nodiscard]] double contact_frequency(double m) const { return std::sqrt(2 * k / m); }
 

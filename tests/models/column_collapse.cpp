@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A column of discs with friction falls on a floor with friction: V54 of the validation plan. Tall columns (height over
+// width a above 3) run out by a power of a, 2/3 in a channel (Lube et al. 2005) and 0.7 for discs (Staron & Hinch 2005).
+#include "models/results.hpp"
+#include "oracle/dice.hpp"
+
+#include "spate/spate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace {
+
+using namespace spate;
+
+constexpr double r = 0.01, m = 0.1, g = 9.81; // largest radius [m], mass of a grain of it [kg], gravity [m/s^2]
+constexpr int across = 20;                    // grains in the width of a column
+constexpr double wide = across * 2 * r;
+constexpr LinearSpring spring{.k = 3e6}; // the weight of 300 grains presses the lowest by a hundredth of their radius
+constexpr Dashpot dashpot{.e = 0.5};
+constexpr Friction friction{.mu = 0.5};
+
+auto channel(Box<2> const& box)
+{
+    return Simulation(dem<2>(Mixture{.largest = r}, spring, dashpot, friction, Gravity<2>{{0, -g}}), Leapfrog{},
+                      Walls(box, contact(spring, dashpot, friction), open(top)), Threads{}, Double{}, Watch{},
+                      Neighbours{.skin = 0.1, .finer = 1, .window = 1});
+}
+double step()
+{
+    return std::numbers::pi / spring.contact_frequency(0.56 * m) / 25; // of the lightest
+}
+struct Collapse {
+    double aspect, runout, height; ///< all over the width of the column at rest
+};
+/// A stack settles between two walls; then the one on the right is gone, until the heap has had 6 free falls to rest.
+Collapse collapse(double stacked)
+{
+    const auto rows = int(stacked * across);
+    auto column = channel(Box<2>{{0, 0}, {wide, 3 * r * rows}});
+    oracle::Dice dice(2026);
+    for (int k = 0; k < across * rows; ++k) {
+        const double size = dice.real(0.75, 0.998);
+        const auto i = column.add({(k % across + 0.5) * 2 * r, (k / across + 0.6) * 2 * r}); // none in another
+        column.particles().put(radius, i, size * r);
+        column.particles().put(mass, i, size * size * m);
+    }
+    const double fall = std::sqrt(2 * stacked * wide / g);
+    column.run({.until = 2 * fall, .dt = step()});
+    auto const& c = column.particles();
+    double top_at = 0;
+    for (std::size_t i = 0; i < c.size(); ++i) top_at = std::max(top_at, c.at(position, i)[1]);
+
+    auto heap = channel(Box<2>{{0, 0}, {12 * top_at, 2 * top_at}});
+    for (std::size_t i = 0; i < c.size(); ++i) {
+        const auto k = heap.add(c.at(position, i));
+        heap.particles().put(radius, k, c.at(radius, i)), heap.particles().put(mass, k, c.at(mass, i));
+    }
+    heap.run({.until = 6 * std::sqrt(2 * top_at / g), .dt = step()});
+    EXPECT_LT(heap.energy().kinetic, 1e-4 * m * g * top_at * double(c.size())); // it rests
+
+    // The heap ends where a stretch of two grains has none in it: those beyond roll by themselves.
+    std::vector<double> highest;
+    auto const& p = heap.particles();
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        const auto at = std::size_t(p.at(position, i)[0] / (4 * r));
+        if (at >= highest.size()) highest.resize(at + 1, 0);
+        highest[at] = std::max(highest[at], p.at(position, i)[1] + r);
+    }
+    std::size_t end = 0;
+    while (end < highest.size() && highest[end] > 0) ++end;
+    return {top_at / wide, double(end) * 4 * r / wide - 1, highest[0] / wide};
+}
+
+TEST(LongColumnCollapse, RunsOutByAPowerOfTheHeight)
+{
+    auto table = models::results("column_collapse.csv", "aspect,runout,height");
+    double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+    for (double stacked : {4.0, 5.5, 7.5, 10.0, 13.5}) {
+        const auto c = collapse(stacked);
+        table << c.aspect << ',' << c.runout << ',' << c.height << '\n';
+        std::printf("a %.2f: runout %.2f, height %.2f widths\n", c.aspect, c.runout, c.height);
+        const double x = std::log(c.aspect), y = std::log(c.runout);
+        n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
+    }
+    const double exponent = (n * sxy - sx * sy) / (n * sxx - sx * sx);
+    std::printf("exponent %.3f, prefactor %.2f\n", exponent, std::exp((sy - exponent * sx) / n));
+    RecordProperty("exponent", std::to_string(exponent));
+    EXPECT_GE(exponent, 0.6);
+    EXPECT_LE(exponent, 0.75);
+}
+
+} // namespace
