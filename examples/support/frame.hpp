@@ -14,6 +14,8 @@
 #include "support/options.hpp"
 #include "support/summary.hpp"
 
+#include <spate/physics/time_step.hpp>
+
 namespace example {
 
 class Frame {

@@ -58,7 +58,6 @@ TEST(Shares, OfAllIsOneRanks)
 }
 /// As if so many ranks asked, and this one had all cells.
 struct Many {
-    static constexpr bool alone = false;
     int ranks;
     [[nodiscard]] int rank() const { return 0; }
     [[nodiscard]] int count() const { return ranks; }
