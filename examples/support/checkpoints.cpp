@@ -3,18 +3,28 @@
 
 #include <charconv>
 
-#include <spate/io/checkpoint_file.hpp>
+#include <spate/io/checkpoint.hpp>
 
 namespace example {
 
-void CheckpointFile::write(std::filesystem::path const& file, spate::io::State const& state) const
-{
-    spate::io::write_checkpoint(file, state);
-}
-spate::io::State CheckpointFile::read(std::filesystem::path const& file) const
-{
-    return spate::io::read_checkpoint(file);
-}
+struct Recorder::Kept : spate::io::Recorder<spate::io::CheckpointFile> {
+    using spate::io::Recorder<spate::io::CheckpointFile>::Recorder;
+};
+
+Recorder::Recorder(std::filesystem::path const& directory, spate::io::Keep keep)
+    : kept_(std::make_unique<Kept>(spate::io::CheckpointFile{}, directory, keep))
+{}
+Recorder::Recorder(Recorder&&) noexcept = default;
+Recorder::~Recorder() = default;
+
+void Recorder::restart(spate::io::AnyScene& scene, std::filesystem::path const& file) { kept_->restart(scene, file); }
+void Recorder::begin(spate::io::AnyScene& scene) { kept_->begin(scene); }
+bool Recorder::due(std::int64_t step) const { return kept_->due(step); }
+void Recorder::step(spate::io::AnyScene& scene) { kept_->step(scene); }
+void Recorder::end(spate::io::AnyScene& scene) { kept_->end(scene); }
+std::filesystem::path const& Recorder::last() const { return kept_->last(); }
+std::filesystem::path const& Recorder::failing() const { return kept_->failing(); }
+std::string const& Recorder::saved() const { return kept_->saved(); }
 
 spate::io::Keep keep_every(std::string const& text)
 {

@@ -59,7 +59,7 @@ public:
         Summary& summary = summary_;
         summary.energy_start = scene.energy().total();
         Checkpoints<decltype(history), Snapshots, Pictures, Summary> checkpoints(
-            {}, directory, keep_every(options_.checkpoint_every), history, snapshots, pictures, summary);
+            {directory, keep_every(options_.checkpoint_every)}, history, snapshots, pictures, summary);
         Talk talk{.quiet = options_.quiet, .speaks = speaks_};
         if constexpr (!many) {
             if (!options_.restart.empty()) checkpoints.restart(scene, options_.restart);

@@ -7,6 +7,7 @@
 
 #include "spate/io/checkpoint_file.hpp"
 #include "spate/io/checkpoints_in.hpp"
+#include "spate/io/recorder.hpp"
 
 namespace spate::io {
 
@@ -18,10 +19,10 @@ struct CheckpointFile {
 /// Checkpoints{"out", {.steps = 1000}, history, snapshots}: an output of Simulation::run, after those that it names;
 /// restart(scene, file) before the run lets the scene, put together as at its start, and the outputs go on.
 template <class... Output>
-class Checkpoints : public CheckpointsIn<CheckpointFile, Output...> {
+class Checkpoints : public CheckpointsIn<Recorder<CheckpointFile>, Output...> {
 public:
     [[gnu::cold]] Checkpoints(std::filesystem::path const& directory, Keep keep, Output&... outputs)
-        : CheckpointsIn<CheckpointFile, Output...>(CheckpointFile{}, directory, keep, outputs...)
+        : CheckpointsIn<Recorder<CheckpointFile>, Output...>({CheckpointFile{}, directory, keep}, outputs...)
     {}
 };
 template <class... Output>

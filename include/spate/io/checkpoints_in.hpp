@@ -1,183 +1,64 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// \brief Checkpoints of a run, by steps or by the clock, and the flight recorder: after a Stop the last good state and the
-///        failing one are on disk. Not the file: that is File, such as that of io/checkpoint.hpp.
+/// \brief Checkpoints of a run as an output of it. Not what keeps them: that is Recorder, such as io/recorder.hpp.
 #pragma once
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <cstdint>
-#include <deque>
 #include <filesystem>
 #include <string>
-#include <system_error>
 #include <tuple>
-#include <vector>
+#include <utility>
 
-#include "spate/core/errors.hpp"
-#include "spate/io/output_error.hpp"
-#include "spate/io/resume.hpp"
-#include "spate/io/state.hpp"
-#include "spate/io/state_of.hpp"
+#include "spate/io/any_scene.hpp"
+#include "spate/io/this_scene.hpp"
 
 namespace spate::io {
 
-/// When states are kept. With neither steps nor wall only a run that is interrupted, or that a Stop ends, leaves one.
-struct Keep {
-    std::int64_t steps = 0;       ///< between two checkpoints; 0: not by steps
-    double wall = 0;              ///< between two checkpoints, by the clock on the wall [s]; 0: not by the clock
-    std::int64_t recorder = 1000; ///< steps between two states kept in memory for the case of a Stop; 0: none
-
-    [[gnu::cold]] void check() const
-    {
-        require(steps >= 0, "Keep.steps", double(steps), "0 or above");
-        require_non_negative("Keep.wall", wall, "s");
-        require(recorder >= 0, "Keep.recorder", double(recorder), "0 or above [steps]");
-    }
-};
-
-/// An output of Simulation::run, the last one: what other outputs have to remember is that of the same step. The last two
-/// files that it wrote are kept. A File has write(path, state) and read(path).
-template <class File, class... Output>
+/// An output of Simulation::run, the last one: what other outputs have to remember is that of the same step. A Recorder is
+/// as io::Recorder, or asks one that is compiled elsewhere.
+template <class Recorder, class... Output>
 class CheckpointsIn {
 public:
-    [[gnu::cold]] CheckpointsIn(File file, std::filesystem::path directory, Keep keep, Output&... outputs)
-        : file_(std::move(file)), directory_(std::move(directory)), keep_(keep), outputs_(outputs...)
-    {
-        keep_.check();
-    }
+    [[gnu::cold]] explicit CheckpointsIn(Recorder recorder, Output&... outputs)
+        : recorder_(std::move(recorder)), outputs_(outputs...)
+    {}
     /// The scene goes on from a file. Throws BadInput, and nothing has changed.
     [[gnu::cold]] void restart(auto& scene, std::filesystem::path const& file)
     {
-        const State state = file_.read(file);
-        std::apply([&](auto&... output) { resume(scene, state, output...); }, outputs_);
-        std::error_code error;
-        if (std::filesystem::equivalent(file.parent_path().empty() ? "." : file.parent_path(), directory_, error))
-            written_.push_back(file);
-        last_ = file, at_ = scene.steps();
+        auto any = of(scene);
+        recorder_.restart(any, file);
     }
     [[gnu::cold]] void begin(auto& scene)
     {
-        remove_unfinished();
-        wall_ = Clock::now();
-        if (keep_.recorder > 0 && at_ != scene.steps()) remember(scene);
+        auto any = of(scene);
+        recorder_.begin(any);
     }
     void step(auto& scene)
     {
-        const std::int64_t n = scene.steps();
-        const bool by_steps = keep_.steps > 0 && n % keep_.steps == 0;
-        const bool by_clock =
-            keep_.wall > 0 && std::chrono::duration<double>(Clock::now() - wall_).count() >= keep_.wall;
-        if (by_steps || by_clock) write(scene);
-        else if (keep_.recorder > 0 && n - at_ >= keep_.recorder) remember(scene);
+        if (!recorder_.due(scene.steps())) return;
+        auto any = of(scene);
+        recorder_.step(any);
     }
     [[gnu::cold]] void end(auto& scene)
     {
-        if (scene.stopped()) return record(scene);
-        if (at_ == scene.steps() && remembered_.empty()) return;
-        if (keep_.steps > 0 || keep_.wall > 0 || scene.interrupted()) write(scene);
+        auto any = of(scene);
+        recorder_.end(any);
     }
     /// The last checkpoint on disk, empty if there is none.
-    [[nodiscard]] std::filesystem::path const& last() const { return last_; }
+    [[nodiscard]] std::filesystem::path const& last() const { return recorder_.last(); }
     /// The state that a Stop has ended, empty if none has.
-    [[nodiscard]] std::filesystem::path const& failing() const { return failing_; }
+    [[nodiscard]] std::filesystem::path const& failing() const { return recorder_.failing(); }
     /// For the message of a Stop: where the states are.
-    [[nodiscard]] std::string const& saved() const { return saved_; }
+    [[nodiscard]] std::string const& saved() const { return recorder_.saved(); }
 
 private:
-    using Clock = std::chrono::steady_clock;
-    struct Remembered {
-        std::int64_t step;
-        State state;
-    };
-
-    /// A step that was cut to end at a given time is not one of a longer run: nothing goes on from it.
-    static bool cut(auto const& scene) { return scene.criterion() == "end"; }
-    /// Whether a run can go on from it: a NaN of this step is seen by the next.
-    [[gnu::cold]] static bool good(State const& state)
+    template <class Scene>
+    ThisScene<Scene, Output...> of(Scene& scene) const
     {
-        for (auto const& [name, table] : state.tables) {
-            const bool finite = std::visit(
-                []<class T>(std::vector<T> const& v) {
-                    return std::all_of(v.begin(), v.end(), [](T x) { return std::isfinite(double(x)); });
-                },
-                table.values);
-            if (!finite) return false;
-        }
-        return true;
-    }
-    [[gnu::cold]] State state(auto& scene)
-    {
-        return std::apply([&](auto&... output) { return state_of(scene, output...); }, outputs_);
-    }
-    [[nodiscard]] std::filesystem::path path(std::string const& what, std::int64_t step) const
-    {
-        return directory_ / (what + "_" + std::to_string(step) + ".h5");
-    }
-    [[gnu::cold]] void write(auto& scene)
-    {
-        if (cut(scene)) return;
-        const State now = state(scene);
-        if (!good(now)) return;
-        write(now, scene.steps());
-        remembered_.clear();
-    }
-    [[gnu::cold]] void write(State const& state, std::int64_t step)
-    {
-        const auto file = path("checkpoint", step);
-        file_.write(file, state);
-        std::error_code error;
-        written_.erase(std::remove(written_.begin(), written_.end(), file), written_.end());
-        written_.push_back(file);
-        for (; written_.size() > 2; written_.pop_front()) std::filesystem::remove(written_.front(), error);
-        last_ = file, at_ = step, wall_ = Clock::now();
-    }
-    [[gnu::cold]] void remember(auto& scene)
-    {
-        at_ = scene.steps();
-        if (cut(scene)) return;
-        State now = state(scene);
-        if (!good(now)) return;
-        if (remembered_.size() == 2) remembered_.pop_front();
-        remembered_.push_back({at_, std::move(now)});
-    }
-    /// The last two good states, and the one that was found wanting.
-    [[gnu::cold]] void record(auto& scene)
-    {
-        try {
-            for (auto const& [step, good] : remembered_) write(good, step);
-            remembered_.clear();
-            if (!last_.empty()) saved_ = "the last good state is " + last_.string();
-            failing_ = path("failing", scene.steps());
-            file_.write(failing_, state(scene));
-            saved_ += (saved_.empty() ? "" : ", ") + ("the failing one " + failing_.string());
-        }
-        catch (OutputError const& e) {
-            saved_ += (saved_.empty() ? "" : "; ") + ("not all states could be saved: " + std::string(e.what()));
-        }
-    }
-    /// What a run that was killed while it wrote has left.
-    [[gnu::cold]] void remove_unfinished() const
-    {
-        std::error_code error;
-        for (auto const& entry : std::filesystem::directory_iterator(directory_, error)) {
-            const std::string name = entry.path().filename().string();
-            if (name.rfind("checkpoint_", 0) == 0 && name.size() > 7 && name.substr(name.size() - 7) == ".h5.tmp")
-                std::filesystem::remove(entry.path(), error);
-        }
+        return {scene, outputs_};
     }
 
-    File file_;
-    std::filesystem::path directory_;
-    Keep keep_;
+    Recorder recorder_;
     std::tuple<Output&...> outputs_;
-    std::deque<Remembered> remembered_;
-    std::deque<std::filesystem::path> written_; ///< by this run, or gone on from
-    std::filesystem::path last_, failing_;
-    std::string saved_;
-    std::int64_t at_ = -1; ///< step of the last state kept, in memory or on disk
-    Clock::time_point wall_ = Clock::now();
 };
 
 } // namespace spate::io

@@ -10,47 +10,70 @@
 #include <string>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
-#include "spate/core/fields.hpp"
+#include "spate/io/any_scene.hpp"
 #include "spate/io/detail/checked_state.hpp"
 #include "spate/io/state.hpp"
 #include "spate/io/state_of.hpp"
+#include "spate/io/this_scene.hpp"
 
 namespace spate::io {
 
 namespace detail {
 
-template <class P>
-[[gnu::cold]] void take_particles(State const& state, int s, P& p, auto fields)
+/// From a state; of outputs only what is there.
+class Read final : public Foldered {
+public:
+    enum class How { look, take }; ///< whether types are right, and nothing changes; or for good
+    Read(State const& state, How how, std::string folder = "")
+        : Foldered(std::move(folder)), state_(state), how_(how), outputs_(path("").empty())
+    {}
+
+private:
+    [[gnu::cold]] void note(std::string_view name, Numbers numbers) const override
+    {
+        const std::string from = path(name);
+        if (outputs_ && !state_.has(from)) return;
+        auto take = [&]<class N>(N* value) {
+            if constexpr (std::is_arithmetic_v<N>) {
+                const auto there = state_.one<Stored<N>>(from);
+                if (how_ == How::take) *value = N(there);
+            }
+            else {
+                auto const& there = state_.table<typename N::value_type>(from);
+                if (how_ == How::take) *value = there;
+            }
+        };
+        std::visit(take, numbers);
+    }
+    State const& state_;
+    How how_;
+    bool outputs_;
+};
+
+template <class T>
+[[gnu::cold]] void take_particles(State const& state, int s, AnyScene& scene)
 {
     auto const& id = state.table<std::uint32_t>(of_species(s, "id"));
-    p.resize(id.size());
-    p.set_ids(id, std::uint32_t(state.one<std::int64_t>(of_species(s, "next_id"))));
-    for_each(P::fields, [&]<class F>(F field) {
-        if constexpr (!decltype(fields)::template contains<F>)
-            for (auto& column : p.column(field)) std::fill(column.begin(), column.end(), typename P::real(0));
-        else {
-            auto const& values = state.table<typename P::real>(of_species(s, F::name), components<F, P::dim>);
-            for (std::size_t k = 0, i = 0; i < id.size(); ++i)
-                for (auto& column : p.column(field)) column[i] = values[k++];
+    scene.set_ids(s, id, std::uint32_t(state.one<std::int64_t>(of_species(s, "next_id"))));
+    struct Take : AnyScene::Columns {
+        State const& state;
+        int s;
+        std::size_t size;
+        Take(State const& from, int of, std::size_t n) : state(from), s(of), size(n) {}
+        void field(std::string_view name, bool lasting, int components, void* const* columns) override
+        {
+            const auto n = std::size_t(components);
+            auto const* values = lasting ? state.table<T>(of_species(s, name), n).data() : nullptr;
+            for (std::size_t c = 0; c < n; ++c) {
+                T* const column = static_cast<T*>(columns[c]);
+                for (std::size_t i = 0; i < size; ++i) column[i] = lasting ? values[i * n + c] : T(0);
+            }
         }
-    });
-}
-
-/// Pairs of ids and values, as terms keep them.
-template <class Pair, class T>
-[[gnu::cold]] std::vector<Pair> pairs_of(State const& state, int s, int q)
-{
-    constexpr std::size_t count = std::tuple_size_v<decltype(Pair::value)>;
-    auto const& ids = state.table<std::uint32_t>(of_pair(s, q, "ids"), 2);
-    auto const& values = state.table<T>(of_pair(s, q, "value"), count);
-    std::vector<Pair> pairs(ids.size() / 2);
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-        pairs[k].i = ids[2 * k], pairs[k].j = ids[2 * k + 1];
-        std::copy_n(values.begin() + std::ptrdiff_t(k * count), count, pairs[k].value.begin());
-    }
-    return pairs;
+    } take(state, s, id.size());
+    scene.columns(s, take);
 }
 
 inline std::vector<std::string> lines(std::string const& text)
@@ -61,44 +84,57 @@ inline std::vector<std::string> lines(std::string const& text)
     return all;
 }
 
+/// A state that was found whole.
+class PastOf final : public AnyScene::Past {
+public:
+    PastOf(AnyScene& scene, State const& state, Facts const& facts, Checked const& checked)
+        : scene_(scene), state_(state), facts_(facts), checked_(checked)
+    {}
+    [[gnu::cold]] void fill() override
+    {
+        for (int s = 0; s < facts_.species; ++s)
+            facts_.single ? take_particles<float>(state_, s, scene_) : take_particles<double>(state_, s, scene_);
+        scene_.numbers(Read(state_, Read::How::take, "run/"));
+    }
+    [[nodiscard]] double skin_of(int s, std::int32_t const* place) const override
+    {
+        return checked_.skin_of(std::size_t(s), place);
+    }
+    [[nodiscard]] Kept kept(int s, int q, std::size_t numbers) const override
+    {
+        auto const& ids = state_.table<std::uint32_t>(of_pair(s, q, "ids"), 2);
+        const std::string name = of_pair(s, q, "value");
+        if (facts_.single) return {ids, state_.table<float>(name, numbers).data()};
+        return {ids, state_.table<double>(name, numbers).data()};
+    }
+
+private:
+    AnyScene& scene_;
+    State const& state_;
+    Facts const& facts_;
+    Checked const& checked_;
+};
+
 } // namespace detail
 
+[[gnu::cold]] inline void resume(AnyScene& scene, State const& state)
+{
+    const Facts facts = scene.facts();
+    const detail::Checked checked(scene, state, facts);
+    detail::Read look(state, detail::Read::How::look), take(state, detail::Read::How::take);
+    scene.notes(look);
+    detail::PastOf past(scene, state, facts, checked);
+    scene.resume(checked.grid_box(), state.text("run/criterion"), detail::lines(state.text("run/warnings")),
+                 checked.local(), past);
+    scene.notes(take);
+}
 /// The scene goes on from a state, and so do the outputs that it remembers. The scene has to be put together and filled as
 /// it was at its start. Throws BadInput before anything changes if the state is not whole, or of another scene.
 template <class Scene, class... Output>
-[[gnu::cold]] void resume(Scene& scene, State const& state, Output&... outputs)
+void resume(Scene& scene, State const& state, Output&... outputs)
 {
-    using Engine = typename Scene::Engine;
-    using M = typename Engine::M;
-    const detail::Checked<Scene> checked(scene, state);
-    detail::each_note(
-        [&]<class N>(std::string const& name, N const&) {
-            if (state.has(name)) (void)detail::noted<N>(state, name);
-        },
-        outputs...);
-    auto fill = [&] {
-        scene.system().each_species([&](auto s) {
-            detail::take_particles(state, s(), scene.system().template species<s()>().particles,
-                                   M::template lasting<s()>());
-        });
-        Scene::numbers_of(scene, [&]<class N>(std::string const& name, N& value) {
-            value = N(state.one<detail::Stored<N>>("run/" + name));
-        });
-    };
-    auto lists = [&](Engine& system) {
-        system.restore_lists(
-            checked.local(), [&](int s, auto const& place) { return checked.skin_of(std::size_t(s), place); },
-            [&]<class Pair>(int s, int q, std::type_identity<Pair>) {
-                return detail::pairs_of<Pair, typename Engine::T>(state, s, q);
-            });
-    };
-    scene.resume(checked.grid_box(), state.text("run/criterion"), detail::lines(state.text("run/warnings")), fill,
-                 lists);
-    detail::each_note(
-        [&]<class N>(std::string const& name, N& value) {
-            if (state.has(name)) value = detail::noted<N>(state, name);
-        },
-        outputs...);
+    ThisScene<Scene, Output...> any(scene, std::tie(outputs...));
+    resume(static_cast<AnyScene&>(any), state);
 }
 
 } // namespace spate::io

@@ -41,6 +41,13 @@ struct State {
     {
         tables[name] = {std::move(values), columns};
     }
+    /// An empty table, to be filled.
+    template <class T>
+    [[nodiscard]] std::vector<T>& fresh(std::string const& name, std::size_t columns)
+    {
+        put(name, std::vector<T>{}, columns);
+        return *std::get_if<std::vector<T>>(&tables[name].values);
+    }
     template <class T>
     void put_one(std::string const& name, T value)
     {

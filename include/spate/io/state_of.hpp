@@ -16,188 +16,206 @@
 #include <tuple>
 #include <type_traits>
 #include <typeinfo>
+#include <utility>
 #include <vector>
 
-#include "spate/core/fields.hpp"
+#include "spate/io/any_scene.hpp"
 #include "spate/io/state.hpp"
+#include "spate/io/this_scene.hpp"
 
 namespace spate::io {
 
 namespace detail {
 
-template <class T>
-[[gnu::cold]] std::string name_of_type()
+[[gnu::cold]] inline std::string name_of_type(std::type_info const& type)
 {
     int status = 0;
-    const std::unique_ptr<char, void (*)(void*)> name(abi::__cxa_demangle(typeid(T).name(), nullptr, nullptr, &status),
+    const std::unique_ptr<char, void (*)(void*)> name(abi::__cxa_demangle(type.name(), nullptr, nullptr, &status),
                                                       std::free);
-    return status == 0 ? name.get() : typeid(T).name();
+    return status == 0 ? name.get() : type.name();
 }
-
-inline std::string numbered(std::string text, int k)
-{
-    text += std::to_string(k);
-    return text;
-}
-
-/// What the scene is put together from, as texts and numbers; the backend is not part of it.
-template <class Scene>
-[[gnu::cold]] State description(Scene const& scene)
-{
-    using Real = typename Scene::Engine::T;
-    State d;
-    d.texts["scene/real"] = name_of_type<Real>();
-    d.texts["scene/interaction"] = name_of_type<std::remove_cvref_t<decltype(scene.physics().interaction)>>();
-    d.texts["scene/integrator"] = name_of_type<std::remove_cvref_t<decltype(scene.integrator())>>();
-    d.texts["scene/boundary"] = name_of_type<std::remove_cvref_t<decltype(scene.system().boundary())>>();
-    int k = 0;
-    auto term = [&]<class X>(X const&) { d.texts[numbered("scene/term ", k++)] = name_of_type<X>(); };
-    std::apply([&](auto const&... t) { (term(t), ...); }, scene.physics().terms);
-    scene.each_parameter([&](std::string const& name, auto value) { d.put_one("scene/" + name, double(value)); });
-    scene.system().each_species([&](auto s) {
-        using P = std::remove_cvref_t<decltype(scene.system().template species<s()>().particles)>;
-        d.texts[numbered("scene/fields of species ", s())] = to_string(P::fields);
-    });
-    return d;
-}
-
-/// Numbers that may be saved: bool and integers as 64 bits.
-template <class T>
-using Stored = std::conditional_t<std::is_integral_v<T>, std::int64_t, T>;
-
 inline std::string of_species(int s, std::string_view what)
 {
-    std::string name = "species_";
-    name += std::to_string(s);
-    name += '/';
-    name += what;
-    return name;
+    return "species_" + std::to_string(s) + "/" + std::string(what);
 }
 inline std::string of_pair(int s, int q, std::string_view what)
 {
-    std::string name = "pairs_";
-    name += std::to_string(s);
-    name += '_';
-    name += std::to_string(q);
-    name += '/';
-    name += what;
-    return name;
+    return "pairs_" + std::to_string(s) + "_" + std::to_string(q) + "/" + std::string(what);
 }
 
-template <class P>
-[[gnu::cold]] void put_particles(State& state, int s, P const& p, auto fields)
+/// What the scene is put together from, as texts and numbers; the backend is not part of it.
+[[gnu::cold]] inline State description(AnyScene const& scene)
 {
-    std::vector<std::size_t> order(p.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return p.id()[a] < p.id()[b]; });
+    struct : AnyScene::Parts {
+        State d;
+        int terms = 0, species = 0;
+        void type(std::string_view role, std::type_info const& type) override
+        {
+            std::string name = "scene/" + std::string(role);
+            if (role == "term ") name += std::to_string(terms++);
+            d.texts[name] = name_of_type(type);
+        }
+        void parameter(std::string_view name, double value) override { d.put_one("scene/" + std::string(name), value); }
+        void fields(std::string const& names) override
+        {
+            d.texts["scene/fields of species " + std::to_string(species++)] = names;
+        }
+    } all;
+    scene.parts(all);
+    return std::move(all.d);
+}
+
+/// Numbers as they are saved: bool and integers as 64 bits.
+template <class T>
+using Stored = std::conditional_t<std::is_integral_v<T>, std::int64_t, T>;
+
+/// Notes of outputs are in a folder for each: outputs are known by their place.
+class Foldered : public Notes {
+public:
+    explicit Foldered(std::string folder = "") : folder_(std::move(folder)) {}
+    void next() override { folder_ = "output_" + std::to_string(output_++) + "/"; }
+
+protected:
+    ~Foldered() = default;
+    [[nodiscard]] std::string path(std::string_view name) const { return folder_ + std::string(name); }
+
+private:
+    std::string folder_;
+    int output_ = 0;
+};
+/// Into a state.
+class Written final : public Foldered {
+public:
+    explicit Written(State& state, std::string folder = "") : Foldered(std::move(folder)), state_(state) {}
+
+private:
+    [[gnu::cold]] void note(std::string_view name, Numbers numbers) const override
+    {
+        auto put = [&]<class N>(N* value) {
+            if constexpr (std::is_arithmetic_v<N>) state_.put_one(path(name), Stored<N>(*value));
+            else state_.put(path(name), *value);
+        };
+        std::visit(put, numbers);
+    }
+    State& state_;
+};
+
+/// Lasting fields, or all, by id.
+template <class T>
+[[gnu::cold]] void put_particles(State& state, int s, AnyScene& scene, bool all)
+{
+    struct Put : AnyScene::Columns {
+        State& state;
+        int s;
+        bool all;
+        std::vector<std::size_t> order;
+        Put(State& into, int of, bool whole) : state(into), s(of), all(whole) {}
+        void field(std::string_view name, bool lasting, int components, void* const* columns) override
+        {
+            if (!lasting && !all) return;
+            const auto n = std::size_t(components);
+            std::vector<T> values;
+            values.reserve(order.size() * n);
+            for (const std::size_t i : order)
+                for (std::size_t c = 0; c < n; ++c) values.push_back(static_cast<T const*>(columns[c])[i]);
+            state.put(of_species(s, name), std::move(values), n);
+        }
+    } put(state, s, all);
+    auto const& ids = scene.ids(s);
+    put.order.resize(ids.size());
+    std::iota(put.order.begin(), put.order.end(), std::size_t{0});
+    std::sort(put.order.begin(), put.order.end(), [&](std::size_t a, std::size_t b) { return ids[a] < ids[b]; });
     std::vector<std::uint32_t> id;
-    for (const std::size_t i : order) id.push_back(p.id()[i]);
+    for (const std::size_t i : put.order) id.push_back(ids[i]);
     state.put(of_species(s, "id"), std::move(id));
-    state.put_one(of_species(s, "next_id"), std::int64_t(p.next_id()));
-    for_each(fields, [&]<class F>(F field) {
-        std::vector<typename P::real> values;
-        values.reserve(order.size() * components<F, P::dim>);
-        for (const std::size_t i : order)
-            for (auto const& column : p.column(field)) values.push_back(column[i]);
-        state.put(of_species(s, F::name), std::move(values), components<F, P::dim>);
-    });
+    state.put_one(of_species(s, "next_id"), std::int64_t(scene.next_id(s)));
+    scene.columns(s, put);
 }
 
-template <class System>
-[[gnu::cold]] void put_skins(State& state, System const& system)
+[[gnu::cold]] inline void put_skins(State& state, AnyScene const& scene, Facts const& facts)
 {
-    constexpr auto dim = std::size_t(System::dim);
-    system.each_species([&](auto s) {
-        std::vector<std::pair<std::array<std::int32_t, dim>, double>> skins;
-        system.each_skin([&](int of, std::array<std::int32_t, dim> const& place, double skin) {
-            if (of == s()) skins.emplace_back(place, skin);
-        });
-        std::sort(skins.begin(), skins.end());
+    const auto dim = std::size_t(facts.dim);
+    struct : AnyScene::Patches {
+        std::size_t dim = 0;
+        std::vector<std::vector<std::pair<std::array<std::int32_t, 3>, double>>> of;
+        void patch(int s, std::int32_t const* place, double skin) override
+        {
+            std::array<std::int32_t, 3> at{};
+            std::copy_n(place, dim, at.begin());
+            of[std::size_t(s)].emplace_back(at, skin);
+        }
+    } skins;
+    skins.dim = dim, skins.of.resize(std::size_t(facts.species));
+    scene.skins(skins);
+    for (int s = 0; s < facts.species; ++s) {
+        auto& mine = skins.of[std::size_t(s)];
+        std::sort(mine.begin(), mine.end());
         std::vector<std::int32_t> places;
         std::vector<double> skin;
-        for (auto const& [place, value] : skins)
-            places.insert(places.end(), place.begin(), place.end()), skin.push_back(value);
-        state.put(of_species(s(), "skin_place"), std::move(places), dim);
-        state.put(of_species(s(), "skin"), std::move(skin));
-    });
+        for (auto const& [place, value] : mine)
+            places.insert(places.end(), place.begin(), place.begin() + std::ptrdiff_t(dim)), skin.push_back(value);
+        state.put(of_species(s, "skin_place"), std::move(places), dim);
+        state.put(of_species(s, "skin"), std::move(skin));
+    }
 }
 
-template <class System>
-[[gnu::cold]] void put_pairs(State& state, System const& system)
+template <class T>
+[[gnu::cold]] void put_pairs(State& state, AnyScene const& scene)
 {
-    system.each_kept([&](int s, int q, auto const& pairs) {
-        using Value = decltype(pairs.front().value);
-        std::vector<std::uint32_t> ids;
-        std::vector<typename Value::value_type> values;
-        for (auto const& pair : pairs) {
-            ids.push_back(pair.i), ids.push_back(pair.j);
-            values.insert(values.end(), pair.value.begin(), pair.value.end());
+    struct Put : AnyScene::Pairs {
+        explicit Put(State& into) : state(into) {}
+        State& state;
+        std::vector<std::uint32_t>* ids = nullptr;
+        std::vector<T>* values = nullptr;
+        std::size_t count = 0;
+        void kept(int s, int q, std::size_t numbers) override
+        {
+            count = numbers;
+            ids = &state.fresh<std::uint32_t>(of_pair(s, q, "ids"), 2);
+            values = &state.fresh<T>(of_pair(s, q, "value"), numbers);
         }
-        state.put(of_pair(s, q, "ids"), std::move(ids), 2);
-        state.put(of_pair(s, q, "value"), std::move(values), std::tuple_size_v<Value>);
-    });
-}
-
-/// What an output has to remember: notes(f) calls f(name, number) or f(name, numbers).
-template <class O>
-concept Remembers = requires(O& o)
-{
-    o.notes([](std::string const&, auto&) {});
-};
-/// f(name, what an output has to remember): outputs are known by their place.
-template <class... Output>
-[[gnu::cold]] void each_note(auto const& f, Output&... outputs)
-{
-    [[maybe_unused]] int k = 0;
-    [[maybe_unused]] auto one = [&]<class O>(O& output) {
-        const std::string folder = numbered("output_", k++) + "/";
-        if constexpr (Remembers<O>)
-            output.notes([&](std::string const& name, auto& value) { f(folder + name, value); });
-    };
-    (one(outputs), ...);
-}
-template <class N>
-[[gnu::cold]] N noted(State const& state, std::string const& name)
-{
-    if constexpr (std::is_arithmetic_v<N>) return N(state.one<Stored<N>>(name));
-    else return state.table<typename N::value_type>(name);
+        void pair(std::uint32_t i, std::uint32_t j, void const* of) override
+        {
+            ids->push_back(i), ids->push_back(j);
+            auto const* value = static_cast<T const*>(of);
+            values->insert(values->end(), value, value + count);
+        }
+    } put(state);
+    scene.pairs(put);
 }
 
 } // namespace detail
 
+[[gnu::cold]] inline State state_of(AnyScene& scene)
+{
+    scene.prepare();
+    const Facts facts = scene.facts();
+    State state = detail::description(scene);
+    scene.numbers(detail::Written(state, "run/"));
+    state.put_one("run/stopped", std::int64_t(facts.stopped));
+    state.texts["run/criterion"] = facts.criterion;
+    std::string warnings;
+    for (auto const& warning : *facts.warnings) warnings += warning + "\n";
+    state.texts["run/warnings"] = warnings;
+    std::vector<double> corners(facts.grid.lo.begin(), facts.grid.lo.begin() + facts.dim);
+    corners.insert(corners.end(), facts.grid.hi.begin(), facts.grid.hi.begin() + facts.dim);
+    state.put("run/grid_box", std::move(corners), std::size_t(facts.dim));
+    for (int s = 0; s < facts.species; ++s)
+        facts.single ? detail::put_particles<float>(state, s, scene, facts.stopped)
+                     : detail::put_particles<double>(state, s, scene, facts.stopped);
+    if (!facts.stopped) detail::put_skins(state, scene, facts);
+    facts.single ? detail::put_pairs<float>(state, scene) : detail::put_pairs<double>(state, scene);
+    detail::Written notes(state);
+    scene.notes(notes);
+    return state;
+}
 /// All that the scene needs to go on, and what outputs have to remember. Of a scene that a Stop has ended: all fields, to
 /// look at.
 template <class Scene, class... Output>
-[[gnu::cold]] State state_of(Scene& scene, Output&... outputs)
+State state_of(Scene& scene, Output&... outputs)
 {
-    using M = typename Scene::Engine::M;
-    if (!scene.prepared()) scene.prepare();
-    State state = detail::description(scene);
-    Scene::numbers_of(scene, [&]<class N>(std::string const& name, N const& value) {
-        state.put_one("run/" + name, detail::Stored<N>(value));
-    });
-    state.put_one("run/stopped", std::int64_t(scene.stopped()));
-    state.texts["run/criterion"] = scene.criterion();
-    for (auto const& warning : scene.report().warnings) state.texts["run/warnings"] += warning + "\n";
-    state.texts["run/warnings"] += "";
-    std::vector<double> corners;
-    for (auto const& corner : {scene.system().grid().box().lo, scene.system().grid().box().hi})
-        for (int c = 0; c < Scene::dim; ++c) corners.push_back(corner[c]);
-    state.put("run/grid_box", std::move(corners), std::size_t(Scene::dim));
-    scene.system().each_species([&](auto s) {
-        auto const& p = scene.system().template species<s()>().particles;
-        if (scene.stopped()) detail::put_particles(state, s(), p, p.fields);
-        else detail::put_particles(state, s(), p, M::template lasting<s()>());
-    });
-    if (!scene.stopped()) detail::put_skins(state, scene.system());
-    detail::put_pairs(state, scene.system());
-    detail::each_note(
-        [&]<class N>(std::string const& name, N const& value) {
-            if constexpr (std::is_arithmetic_v<N>) state.put_one(name, detail::Stored<N>(value));
-            else state.put(name, value);
-        },
-        outputs...);
-    return state;
+    ThisScene<Scene, Output...> any(scene, std::tie(outputs...));
+    return state_of(static_cast<AnyScene&>(any));
 }
 
 } // namespace spate::io

@@ -4,82 +4,85 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <type_traits>
+#include <variant>
 #include <vector>
 
-#include "spate/core/box.hpp"
-#include "spate/core/fields.hpp"
+#include "spate/core/errors.hpp"
+#include "spate/io/any_scene.hpp"
 #include "spate/io/state.hpp"
 #include "spate/io/state_of.hpp"
 
 namespace spate::io::detail {
 
 /// Checks that a state is whole and of this scene; the scene stays as it is.
-template <class Scene>
 class Checked {
-    using Engine = typename Scene::Engine;
-    using M = typename Engine::M;
-    using T = typename Engine::T;
-    static constexpr int dim = Scene::dim;
-    using Place = std::array<std::int32_t, std::size_t(dim)>;
-    static constexpr auto count = std::size_t(Engine::species_count);
+    using Place = std::vector<std::int32_t>;
 
 public:
-    [[gnu::cold]] Checked(Scene const& scene, State const& state) : scene_(scene), state_(state)
+    [[gnu::cold]] Checked(AnyScene& scene, State const& state, Facts const& facts)
+        : scene_(scene), state_(state), facts_(facts), dim_(std::size_t(facts.dim))
     {
-        if (scene.physics().open()) state.refuse("asked of a scene without particles: fill it as at its start");
+        if (!scene.filled()) state.refuse("asked of a scene without particles: fill it as at its start");
         check_scene();
         if (state.one<std::int64_t>("run/stopped") != 0)
             state.refuse("a state at which a run stopped: it is there to be looked at, not to go on from");
         check_numbers();
-        scene.system().each_species([&](auto s) { check_particles<s()>(); });
-        for (std::size_t s = 0; s < count; ++s) {
-            (void)state.table<std::int32_t>(of_species(int(s), "skin_place"), dim, skin(s).size());
-            local_ = local_ || !skin(s).empty();
-        }
-        if (state.one<std::int64_t>("run/have_lists") != 0)
-            scene.system().each_species([&](auto s) { check_skins<s()>(); });
-        scene.system().each_kept([&](auto s, auto q, auto const& pairs) {
-            check_pairs<s(), q(), std::tuple_size_v<decltype(pairs.front().value)>>();
-        });
+        if (facts.single) check_tables<float>();
+        else check_tables<double>();
     }
-    [[nodiscard]] Box<dim> grid_box() const
+    [[nodiscard]] AnyScene::Corners grid_box() const
     {
-        auto const& corners = state_.table<double>("run/grid_box", dim, 2);
-        Box<dim> box{};
-        for (int c = 0; c < dim; ++c) box.lo[c] = corners[std::size_t(c)], box.hi[c] = corners[std::size_t(dim + c)];
+        auto const& corners = state_.table<double>("run/grid_box", dim_, 2);
+        AnyScene::Corners box;
+        std::copy_n(corners.begin(), dim_, box.lo.begin());
+        std::copy_n(corners.begin() + facts_.dim, dim_, box.hi.begin());
         return box;
     }
     /// Whether skins differ by place.
     [[nodiscard]] bool local() const { return local_; }
     /// Of a patch, which was checked to be there.
-    [[nodiscard]] double skin_of(std::size_t s, Place const& place) const
+    [[nodiscard]] double skin_of(std::size_t s, std::int32_t const* place) const
     {
         std::size_t first = 0, last = skin(s).size();
         while (last - first > 1) {
             const std::size_t middle = (first + last) / 2;
-            (place < place_of(s, middle) ? last : first) = middle;
+            (before(place, place_of(s, middle)) ? last : first) = middle;
         }
         return skin(s)[first];
     }
 
 private:
+    [[nodiscard]] bool before(std::int32_t const* a, std::int32_t const* b) const
+    {
+        return std::lexicographical_compare(a, a + dim_, b, b + dim_);
+    }
     [[nodiscard]] std::vector<double> const& skin(std::size_t s) const
     {
         return state_.table<double>(of_species(int(s), "skin"));
     }
-    [[nodiscard]] Place place_of(std::size_t s, std::size_t k) const
+    [[nodiscard]] std::int32_t const* place_of(std::size_t s, std::size_t k) const
     {
-        auto const& all = state_.table<std::int32_t>(of_species(int(s), "skin_place"), dim);
-        Place place;
-        std::copy_n(all.begin() + std::ptrdiff_t(k * std::size_t(dim)), dim, place.begin());
-        return place;
+        return state_.table<std::int32_t>(of_species(int(s), "skin_place"), dim_).data() + k * dim_;
+    }
+    template <class T>
+    [[gnu::cold]] void check_tables()
+    {
+        for (int s = 0; s < facts_.species; ++s) check_particles<T>(s);
+        for (int s = 0; s < facts_.species; ++s) {
+            const std::size_t patches = skin(std::size_t(s)).size();
+            (void)state_.table<std::int32_t>(of_species(s, "skin_place"), dim_, patches);
+            local_ = local_ || patches > 0;
+        }
+        if (state_.one<std::int64_t>("run/have_lists") != 0)
+            for (int s = 0; s < facts_.species; ++s) check_skins<T>(s);
+        check_pairs<T>();
     }
     [[gnu::cold]] void check_scene() const
     {
@@ -109,27 +112,42 @@ private:
     }
     [[gnu::cold]] void check_numbers() const
     {
-        Scene::numbers_of(scene_, [&]<class N>(std::string const& name, N const&) {
-            const auto value = state_.one<Stored<N>>("run/" + name);
-            bool fine = true;
-            if constexpr (std::same_as<N, bool>) fine = value == 0 || value == 1;
-            else if constexpr (std::is_integral_v<N>) fine = value >= 0 && value < (std::int64_t{1} << 60);
-            else fine = std::isfinite(value);
-            if (!fine) state_.refuse("with " + text(double(value)) + " for " + name);
-        });
+        scene_.numbers(Sane(state_));
         if (!(state_.one<double>("run/time") >= 0 && state_.one<double>("run/dt") >= 0))
             state_.refuse("with a time below 0");
         (void)state_.text("run/criterion"), (void)state_.text("run/warnings");
         const auto box = grid_box();
         bool fine = true;
-        for (int c = 0; c < dim; ++c)
+        for (std::size_t c = 0; c < dim_; ++c) {
             fine = fine && std::isfinite(box.lo[c]) && std::isfinite(box.hi[c]) && box.lo[c] <= box.hi[c];
-        if (const auto mine = scene_.system().boundary().template box<dim>())
-            for (int c = 0; c < dim; ++c) fine = fine && box.lo[c] == mine->lo[c] && box.hi[c] == mine->hi[c];
+            if (auto const& mine = facts_.walls) fine = fine && box.lo[c] == mine->lo[c] && box.hi[c] == mine->hi[c];
+        }
         if (!fine) state_.refuse("with a box that is none of this scene");
     }
-    template <int s>
-    [[gnu::cold]] void check_particles() const
+    /// Looks at the numbers of a run, and leaves them as they are.
+    class Sane final : public Notes {
+    public:
+        explicit Sane(State const& state) : state_(state) {}
+
+    private:
+        [[gnu::cold]] void note(std::string_view name, Numbers numbers) const override
+        {
+            auto look = [&]<class N>(N*) {
+                if constexpr (std::is_arithmetic_v<N>) {
+                    const auto value = state_.one<Stored<N>>("run/" + std::string(name));
+                    bool fine = true;
+                    if constexpr (std::same_as<N, bool>) fine = value == 0 || value == 1;
+                    else if constexpr (std::is_integral_v<N>) fine = value >= 0 && value < (std::int64_t{1} << 60);
+                    else fine = std::isfinite(value);
+                    if (!fine) state_.refuse("with " + text(double(value)) + " for " + std::string(name));
+                }
+            };
+            std::visit(look, numbers);
+        }
+        State const& state_;
+    };
+    template <class T>
+    [[gnu::cold]] void check_particles(int s) const
     {
         auto const& id = state_.table<std::uint32_t>(of_species(s, "id"));
         for (std::size_t k = 1; k < id.size(); ++k)
@@ -138,58 +156,92 @@ private:
         if (next < (id.empty() ? 0 : std::int64_t(id.back()) + 1) || next > std::numeric_limits<std::uint32_t>::max())
             state_.refuse("with a wrong next id");
         if (id.size() > std::size_t(std::numeric_limits<std::int32_t>::max())) state_.refuse("with too many particles");
-        if (s == 1 && id.size() != scene_.system().template species<s>().particles.size())
+        if (s == 1 && id.size() != scene_.ids(s).size())
             state_.refuse("of another scene: its walls have another number of markers");
-        for_each(M::template lasting<s>(), [&]<class F>(F) {
-            for (const T value : state_.table<T>(of_species(s, F::name), components<F, dim>, id.size()))
-                if (!std::isfinite(value))
-                    state_.refuse("with a " + std::string(F::name) + " that is not a finite number");
-        });
+        struct Look : AnyScene::Columns {
+            State const& state;
+            int s;
+            std::size_t size;
+            Look(State const& at, int of, std::size_t n) : state(at), s(of), size(n) {}
+            void field(std::string_view name, bool lasting, int components, void* const*) override
+            {
+                if (!lasting) return;
+                for (const T value : state.table<T>(of_species(s, name), std::size_t(components), size))
+                    if (!std::isfinite(value))
+                        state.refuse("with a " + std::string(name) + " that is not a finite number");
+            }
+        } look(state_, s, id.size());
+        scene_.columns(s, look);
     }
     /// Every patch that holds particles has a skin, and no other; and no particle is beyond the index.
-    template <int s>
-    [[gnu::cold]] void check_skins() const
+    template <class T>
+    [[gnu::cold]] void check_skins(int s) const
     {
-        using Fields = decltype(M::template lasting<s>());
-        constexpr bool built = Fields::template contains<BuildPosition>;
-        auto const& x = state_.table<T>(of_species(s, built ? "build_position" : "position"), dim);
-        const auto grid = scene_.make_grid(grid_box());
-        std::vector<Place> places;
-        for (std::size_t i = 0; i < x.size(); i += std::size_t(dim)) {
-            Vec<dim, double> at;
-            for (int c = 0; c < dim; ++c) at[c] = double(x[i + std::size_t(c)]);
-            places.push_back(Engine::place(at, grid));
-            for (int c = 0; c < dim; ++c)
-                if (std::abs(double(grid.cell_of(c, grid.bin(c, at[c])))) >= double(1 << 20))
-                    state_.refuse("with a particle too far from the origin");
-        }
-        std::sort(places.begin(), places.end());
-        places.erase(std::unique(places.begin(), places.end()), places.end());
+        const std::string built = of_species(s, "build_position");
+        const bool is_built = has_lasting(s, "build_position");
+        auto const& table = state_.table<T>(is_built ? built : of_species(s, "position"), dim_);
+        const std::vector<double> x(table.begin(), table.end());
+        std::vector<std::int32_t> all(x.size());
+        if (!scene_.places(grid_box(), x.data(), x.size() / dim_, all.data()))
+            state_.refuse("with a particle too far from the origin");
         if (!local_) return;
-        auto const& mine = skin(s);
+        std::vector<std::int32_t const*> places;
+        for (std::size_t k = 0; k < all.size(); k += dim_) places.push_back(all.data() + k);
+        auto less = [&](auto* a, auto* b) { return before(a, b); };
+        auto same = [&](auto* a, auto* b) { return std::equal(a, a + dim_, b); };
+        std::sort(places.begin(), places.end(), less);
+        places.erase(std::unique(places.begin(), places.end(), same), places.end());
+        auto const& mine = skin(std::size_t(s));
         bool fine = mine.size() == places.size();
         for (std::size_t k = 0; fine && k < places.size(); ++k)
-            fine = places[k] == place_of(s, k) && mine[k] > 0 && mine[k] <= scene_.system().neighbours().closed_in();
+            fine = same(places[k], place_of(std::size_t(s), k)) && mine[k] > 0 && mine[k] <= facts_.widest_skin;
         if (!fine) state_.refuse("with skins that are not those of its particles");
     }
-    template <int s, int q, std::size_t values>
+    [[gnu::cold]] bool has_lasting(int s, std::string_view wanted) const
+    {
+        struct Find : AnyScene::Columns {
+            std::string_view wanted;
+            bool found = false;
+            void field(std::string_view name, bool lasting, int, void* const*) override
+            {
+                found = found || (lasting && name == wanted);
+            }
+        } find;
+        find.wanted = wanted;
+        scene_.columns(s, find);
+        return find.found;
+    }
+    template <class T>
     [[gnu::cold]] void check_pairs() const
     {
-        auto const& ids = state_.table<std::uint32_t>(of_pair(s, q, "ids"), 2);
-        auto const& i = state_.table<std::uint32_t>(of_species(s, "id"));
-        auto const& j = state_.table<std::uint32_t>(of_species(q, "id"));
+        struct Look : AnyScene::Pairs {
+            State const& state;
+            explicit Look(State const& at) : state(at) {}
+            void kept(int s, int q, std::size_t numbers) override { check_pairs<T>(state, s, q, numbers); }
+            void pair(std::uint32_t, std::uint32_t, void const*) override {}
+        } look(state_);
+        scene_.pairs(look);
+    }
+    template <class T>
+    [[gnu::cold]] static void check_pairs(State const& state, int s, int q, std::size_t numbers)
+    {
+        auto const& ids = state.table<std::uint32_t>(of_pair(s, q, "ids"), 2);
+        auto const& i = state.table<std::uint32_t>(of_species(s, "id"));
+        auto const& j = state.table<std::uint32_t>(of_species(q, "id"));
         bool fine = true;
         for (std::size_t k = 0; fine && k < ids.size(); k += 2) {
             fine = std::binary_search(i.begin(), i.end(), ids[k]) && std::binary_search(j.begin(), j.end(), ids[k + 1]);
             if (k > 0) fine = fine && (ids[k - 2] < ids[k] || (ids[k - 2] == ids[k] && ids[k - 1] < ids[k + 1]));
         }
-        for (const T value : state_.table<T>(of_pair(s, q, "value"), values, ids.size() / 2))
+        for (const T value : state.table<T>(of_pair(s, q, "value"), numbers, ids.size() / 2))
             fine = fine && std::isfinite(value);
-        if (!fine) state_.refuse("with pairs that are not those of its particles");
+        if (!fine) state.refuse("with pairs that are not those of its particles");
     }
 
-    Scene const& scene_;
+    AnyScene& scene_;
     State const& state_;
+    Facts const& facts_;
+    std::size_t dim_;
     bool local_ = false;
 };
 
