@@ -404,7 +404,7 @@ public:
     // ---- going on from a checkpoint: see io/resume.hpp
     /// f(name, number) for all that the steps to come depend on beside the particles, and for what has been counted.
     template <class Self>
-    static void numbers_of(Self& self, auto const& f)
+    [[gnu::cold]] static void numbers_of(Self& self, auto const& f)
     {
         auto& r = self.report_;
         f("step", self.step_), f("time", self.time_), f("dt", self.dt_);
@@ -1040,7 +1040,7 @@ private:
         if (!system_.stale(system_.extremes(), 0, 0)) look_at_energy(); // a rebuild here would wrap the last state
         look_outside();
     }
-    void look_outside() const
+    [[gnu::cold]] void look_outside() const
     {
         together(system_.ranks(), [&] {
             stop_if_outside(system_.mobile(), system_.boundary(), physics().interaction.range(), step_, time_);

@@ -49,10 +49,6 @@ struct Foreign {
     std::int32_t first = 0; ///< record of the first of them
     std::vector<std::uint32_t> const* ids = nullptr;
 
-    [[nodiscard]] std::int32_t record_of(std::int32_t j, int code) const
-    {
-        return first + (code == 0 ? j : bins->record_of(j, code, places.size) - 1); // they need no second sentinel
-    }
     /// Records of them and of their images.
     [[nodiscard]] std::size_t records() const { return bins ? places.size + bins->images().of.size() : 0; }
     /// Which of them a record is.
@@ -395,13 +391,12 @@ private:
                     for (int s = 0; s < stretch; ++s)
                         first[b + s] = std::int32_t(near.count) + of->first(std::size_t(k), local + s) - j0;
                     const std::int32_t j1 = of->first(std::size_t(k), local + stretch);
-                    if (of == &source.bins)
-                        copy(near, j0, j1, full, corner, source.places, grid, [&](std::int32_t j) {
-                            return full == 0 ? j : of->record_of(j, full, source.places.size);
-                        });
-                    else
-                        copy(near, j0, j1, full, corner, source.foreign->places, grid,
-                             [&](std::int32_t j) { return source.foreign->record_of(j, full); });
+                    const bool own = of == &source.bins;
+                    auto const& places = own ? source.places : source.foreign->places;
+                    const std::int32_t from = own ? 0 : source.foreign->first;
+                    const std::size_t images = own ? places.size : places.size - 1; // theirs need no second sentinel
+                    copy(near, j0, j1, full, corner, places, grid,
+                         [&](std::int32_t j) { return from + of->record_of(j, full, images); });
                 }
                 b += stretch;
             }

@@ -40,6 +40,11 @@ template <class T>
     a.resize(n);
     std::fill(a.begin() + std::ptrdiff_t(zero_from), a.end(), T(0));
 }
+/// Room that growth has left, where it is much.
+[[gnu::noinline]] void give_back(auto& a)
+{
+    if (2 * a.capacity() > 3 * a.size()) a.shrink_to_fit();
+}
 } // namespace detail
 
 template <int Dim, Real T, class Stored, class Uniforms>
@@ -241,16 +246,13 @@ public:
             for (auto& a : column(f)) detail::fill_from(a, size(), a[size() - 1]);
         });
     }
-    /// Gives back room that growth one by one has left, where it is much.
+    /// Gives back room that growth one by one has left.
     void fit()
     {
-        auto one = [](auto& a) {
-            if (2 * a.capacity() > 3 * a.size()) a.shrink_to_fit();
-        };
         for_each(fields, [&](auto f) {
-            for (auto& a : column(f)) one(a);
+            for (auto& a : column(f)) detail::give_back(a);
         });
-        one(id_);
+        detail::give_back(id_);
     }
     /// Bytes in use by columns and ids.
     [[nodiscard]] std::size_t bytes() const

@@ -18,7 +18,7 @@ namespace spate {
 struct WallForce {
     std::string name = "wall_force";
 
-    auto operator()(auto& scene) const // [N]
+    [[gnu::cold]] auto operator()(auto& scene) const // [N]
     {
         using Engine = std::remove_cvref_t<decltype(scene.system())>;
         constexpr bool touched = Set<Engine::M::wall_adds>::template contains<Acceleration>;

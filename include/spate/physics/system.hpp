@@ -1414,7 +1414,7 @@ private:
         if constexpr (ParticlesOf<s>::template has<BuildPosition>)
             for (int c = 0; c < dim; ++c) p.column(build_position)[std::size_t(c)] = p.column(position)[std::size_t(c)];
     }
-    void make_room()
+    [[gnu::cold]] void make_room()
     {
         each_species([&](auto s) {
             auto& x = species<s()>();
@@ -1635,7 +1635,7 @@ private:
             std::swap(particles.column(position), particles.column(build_position));
     }
     /// Where velocities differ lists reach far; see Skins.
-    void choose_skins(bool wide)
+    [[gnu::cold]] void choose_skins(bool wide)
     {
         skins_.use(neighbours_.closed_in());
         if (!neighbours_.local || !any_pairs) return;
