@@ -7,7 +7,7 @@ set(cells core cells)
 set(physics core kernel cells physics)
 set(integrator core integrator)
 set(boundary core cells boundary)
-set(backend core backend)
+set(backend core physics backend)
 set(measure core measure)
 set(io core io)
 # Headers beside the folders (simulation.hpp, concepts.hpp) may include any folder; of each other, simulation.hpp may

@@ -233,7 +233,7 @@ public:
         });
         system_.use(make_grid());
         system_.resized();
-        system_.distribute(step_ == 0);
+        if constexpr (!Engine::alone) system_.distribute(step_ == 0);
         prepared_ = true;
     }
 

@@ -8,6 +8,7 @@
 #include "spate/backend/serial.hpp"
 #include "spate/core/errors.hpp"
 #include "spate/core/ranks.hpp"
+#include "spate/physics/migration.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -30,12 +30,6 @@ struct RankReport {
     double imbalance = 1;         ///< largest cost of a rank over the mean, when last looked at [-]
 };
 
-/// One rank has all: nothing to know.
-struct Undivided {
-    explicit Undivided(Alone) {}
-    static constexpr Alone ranks() { return {}; }
-};
-
 /// \tparam T  of columns    \tparam S  of records    \tparam R  the ranks    \tparam Species  at most two
 template <int Dim, class T, class S, int Species, class R>
 class Decomposition {

@@ -268,7 +268,7 @@ inline constexpr bool short_lists = requires
 /// \tparam V        what pairs compute with
 template <class V, Mask terms, class Sums, class Target, class I, class Tuple, class P, class... Src>
 [[gnu::flatten, gnu::noinline]] void sweep_cell(I const& of_scene, Tuple const& terms_of_scene, P& particles,
-                                 Binning<P::dim> const& at, std::size_t cell, Src const&... source)
+                                                Binning<P::dim> const& at, std::size_t cell, Src const&... source)
 {
     const I interaction = of_scene; // copies in this frame: parameters become invariants in registers
     const Tuple all = terms_of_scene;

@@ -24,7 +24,7 @@ struct DashpotOn {
     static constexpr auto adds = Fields{acceleration} | detail::counted<Counted>();
     static constexpr bool normal = true, dashpot = true;
     Spring spring;
-    double zeta; ///< damping over the critical [-]
+    double zeta = 0; ///< damping over the critical [-]
     Tail tail;
     double rate = rate_of(spring, zeta); ///< 2 zeta sqrt(k) of a constant k: a root less in the loop
 
