@@ -19,12 +19,12 @@ using namespace spate;
 constexpr int side = 16;
 constexpr double r = 0.01, m = 0.1, phi = 0.1, e = 0.9, speed = 0.5; // sqrt(T0/m) [m/s]
 /// So stiff that a grain is in contact for less than a hundredth of the time: the law is that of hard discs.
-constexpr LinearSpring spring{.k = 4e6};
+constexpr LinearSpring spring{.k = 4e6}; // by the midpoint method: e of a dashpot is of first order under leapfrog
 
 auto gas(std::uint64_t seed)
 {
     const double pitch = r * std::sqrt(std::numbers::pi / phi), L = side * pitch;
-    Simulation sim(dem<2>({.mass = m, .radius = r}, spring, Dashpot{.e = 1}), Leapfrog{},
+    Simulation sim(dem<2>({.mass = m, .radius = r}, spring, Dashpot{.e = 1}), RungeKutta2{},
                    Periodic(Box<2>{{0, 0}, {L, L}}), Serial{});
     oracle::Dice dice(seed);
     std::vector<Vec<2, double>> v(side * side);

@@ -26,23 +26,16 @@ struct DashpotOn {
     Spring spring;
     double zeta = 0; ///< damping over the critical [-]
     Tail tail;
-    double rate = rate_of(spring, zeta); ///< 2 zeta sqrt(k) of a constant k: a root less in the loop
 
     /// c [N s/m].
     [[gnu::always_inline]] auto damping(auto const& i, auto const& j, auto const& ij) const
     {
-        if constexpr (requires { spring.k; }) return rate * sqrt(reduced(i[mass], j[mass]));
-        else return damping(i, j, ij, spring.stiffness(i, j, ij));
+        return damping(i, j, ij, spring.stiffness(i, j, ij));
     }
     /// Of a spring of another stiffness beside it.
     [[gnu::always_inline]] auto damping(auto const& i, auto const& j, auto const&, auto const& stiffness) const
     {
         return 2 * zeta * sqrt(stiffness * reduced(i[mass], j[mass]));
-    }
-    static double rate_of(Spring const& s, double zeta)
-    {
-        if constexpr (requires { s.k; }) return 2 * zeta * std::sqrt(s.k);
-        else return 0;
     }
     [[gnu::always_inline]] auto force(auto const& i, auto const& j, auto const& ij) const
     {
