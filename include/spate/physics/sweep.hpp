@@ -47,6 +47,13 @@ struct Source {
     Carry carry;
 };
 
+/// Whether an interaction asks for lists whose targets stay in order: they are short.
+template <class I>
+inline constexpr bool short_lists = requires
+{
+    requires I::neighbours.window == 1;
+};
+
 namespace detail {
 template <Mask terms, std::size_t t>
 inline constexpr bool picked = ((terms >> t) & 1) != 0;
@@ -196,12 +203,17 @@ template <class V, class I, class Tuple, class Ri, class Ui, class A, class Src>
     scalar_t<V> const* base = source.packed.data.data();
     std::int32_t const* const index = lists.index.data();
     const auto end = std::size_t(lists.begin[block + 1]) * std::size_t(width<V>);
-    // The next block's first sight of a row of bins is a miss; its lanes share lines, so that one lane asks for all.
-    constexpr std::size_t ahead = 48 * std::size_t(width<V>);
-    const std::size_t last = lists.index.size() - 1;
+    // The next blocks' first sight of a row of bins is a miss. In bins that are fine the lanes share lines, so that one lane
+    // asks for all; in others each asks for its own.
+    constexpr bool each_lane = short_lists<I>;
+    constexpr std::size_t ahead = (each_lane ? 16 : 48) * std::size_t(width<V>);
+    const std::size_t last = lists.index.size() - std::size_t(each_lane ? width<V> : 1);
     A mine = sums; // a copy in registers: g++ would store sums to the stack with each pack
     for (auto at = std::size_t(lists.begin[block]) * std::size_t(width<V>); at != end; at += std::size_t(width<V>)) {
-        __builtin_prefetch(base + std::uint32_t(index[std::min(at + ahead, last)]));
+        std::int32_t const* const later = index + std::min(at + ahead, last);
+        for (int l = 0; l < (each_lane ? width<V> : 1); ++l)
+            for (int f = 0; f < (each_lane ? L::stride : 1); f += 64 / int(sizeof(scalar_t<V>)))
+                __builtin_prefetch(base + std::uint32_t(later[l]) + f);
         const auto rj = gathered<V>(base, index + at, L{});
         if constexpr (Src::Kept::size == 0)
             if (!may_meet<I>(interaction, ri, ui, rj, uj)) continue;
@@ -253,13 +265,6 @@ template <Mask terms, class V, class I, class Ri, class Ui, class A, class... T,
     (one(std::integral_constant<std::size_t, t>{}), ...);
 }
 } // namespace detail
-
-/// Whether an interaction asks for lists whose targets stay in order: they are short.
-template <class I>
-inline constexpr bool short_lists = requires
-{
-    requires I::neighbours.window == 1;
-};
 
 /// Runs the picked terms on all targets of one cell: the unit of work. Flattened: terms are inlined however large the
 /// program; a call in the loop would send its sums through memory.
