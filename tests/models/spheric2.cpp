@@ -6,6 +6,7 @@
 
 #include "../../examples/dam_break/column.hpp"
 
+#include "spate/measure/gauge.hpp"
 #include "spate/measure/leaks.hpp"
 #include "spate/spate.hpp"
 
@@ -38,10 +39,14 @@ TEST(LongSpheric2, PressureAndDepthsAreThoseOfTheExperiment)
     std::vector<Series> s;
     using Sensors = std::remove_cvref_t<decltype(c.sensors)>;
     using Gauges = std::remove_cvref_t<decltype(c.gauges)>;
-    models::Recorder<Sensors, Gauges> recorder{1e-3, s, {c.sensors, c.gauges}};
+    // The experiment's gauges are wires: where the jet falls back as spray, the highest drop is not what they read.
+    std::vector<WettedLength<3>> wires;
+    for (auto const& gauge : c.gauges) wires.push_back({gauge.name, gauge.foot, 2 * c.spacing, c.spacing});
+    models::Recorder<Sensors, Gauges, std::vector<WettedLength<3>>> recorder{1e-3, s, {c.sensors, c.gauges, wires}};
     dam.run({.until = 2, .cfl = 0.2}, recorder);
 
-    auto file = models::results("spheric2.csv", "t,P1,P2,P3,P4,P5,P6,P7,P8,h_x0496,h_x0992,h_x1488,h_x2638");
+    auto file = models::results(
+        "spheric2.csv", "t,P1,P2,P3,P4,P5,P6,P7,P8,h_x0496,h_x0992,h_x1488,h_x2638,w_x0496,w_x0992,w_x1488,w_x2638");
     for (std::size_t n = 0; n < s[0].t.size(); ++n) {
         file << s[0].t[n];
         for (auto const& one : s) file << ',' << one.y[n];
@@ -57,11 +62,16 @@ TEST(LongSpheric2, PressureAndDepthsAreThoseOfTheExperiment)
     EXPECT_NEAR(impulse / p1.integral(0.39, 0.8), 1, 0.25);
     for (std::size_t k = 0; k < c.gauges.size(); ++k) {
         const Series data = measured(c.gauges[k].name);
-        double sum = 0, n = 0;
-        for (std::size_t i = 0; i < data.t.size() && data.t[i] <= 2; ++i)
-            sum += std::abs(s[8 + k].at(data.t[i]) - data.y[i]), n += 1;
-        std::printf("%s: mean difference %.2f %% of the column\n", c.gauges[k].name.c_str(), 100 * sum / n / 0.55);
-        EXPECT_LE(sum / n / 0.55, 0.1) << c.gauges[k].name;
+        auto difference = [&](Series const& ours) {
+            double sum = 0, n = 0;
+            for (std::size_t i = 0; i < data.t.size() && data.t[i] <= 2; ++i)
+                sum += std::abs(ours.at(data.t[i]) - data.y[i]), n += 1;
+            return sum / n / 0.55;
+        };
+        const double wire = difference(s[8 + c.gauges.size() + k]);
+        std::printf("%s: mean difference %.2f %% of the column, by the highest particle %.2f %%\n",
+                    c.gauges[k].name.c_str(), 100 * wire, 100 * difference(s[8 + k]));
+        EXPECT_LE(wire, 0.1) << c.gauges[k].name;
     }
 }
 

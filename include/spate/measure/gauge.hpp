@@ -8,6 +8,7 @@
 #include "spate/measure/nearest_image.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace spate {
@@ -34,6 +35,35 @@ struct Gauge {
         return party_of(scene).all(height, agree::Most{});
     }
 };
+/// The length along which an upright wire through `foot` is wet, as a resistance gauge reads it: the volume of water over a
+/// square of edge 2 `half` about the foot, over its area. The last axis is up; a particle is a cube of its spacing. Spray
+/// counts by its volume, where to a Gauge it is surface.
+template <int Dim>
+struct WettedLength {
+    std::string name;
+    Vec<Dim, double> foot; ///< [m]
+    double half;           ///< of the edge of the square [m]
+    double spacing;        ///< of the particles [m]
+
+    double operator()(auto const& scene) const // [m]
+    {
+        auto const& p = scene.particles();
+        const double edge = 2 * half, volume = std::pow(spacing, Dim) / std::pow(edge, Dim - 1);
+        return scene.system().sum([&](std::size_t i) {
+            const auto x = nearest_image(p.at(position, i) - foot, scene.system().grid());
+            double inside = x[Dim - 1] > 0 ? volume : 0;
+            for (int c = 0; c < Dim - 1; ++c) {
+                const double in = std::min(x[c] + spacing / 2, half) - std::max(x[c] - spacing / 2, -half);
+                inside *= std::max(in, 0.0) / spacing;
+            }
+            return inside;
+        });
+    }
+};
+template <int Dim>
+WettedLength(std::string, Vec<Dim, double>, double, double) -> WettedLength<Dim>;
+template <int Dim>
+WettedLength(char const*, Vec<Dim, double>, double, double) -> WettedLength<Dim>;
 template <int Dim>
 Gauge(std::string, Vec<Dim, double>, double) -> Gauge<Dim>;
 template <int Dim>
