@@ -469,8 +469,12 @@ public:
     [[gnu::cold]] [[nodiscard]] Grid<dim> make_grid(Box<dim> const& box) const
     {
         constexpr int by_dimension[] = {64, 16, 6}, of_many_ranks[] = {16, 4, 2}; // several cells a rank
+        // In the plane short lists make cells so cheap that what a cell itself costs shows: larger ones, where enough remain
+        // for each thread.
+        const bool larger = dim == 2 && short_lists<typename Engine::M::Interaction> &&
+                            system_.mobile().size() > 32768 * std::size_t(system_.backend().threads());
         const int cell = system_.backend().cell > 0 ? system_.backend().cell
-                         : Engine::alone            ? by_dimension[dim - 1]
+                         : Engine::alone            ? by_dimension[dim - 1] * (larger ? 2 : 1)
                                                     : of_many_ranks[dim - 1];
         auto const& n = system_.neighbours();
         return Grid<dim>(box, system_.boundary().template edges<dim>(), physics().interaction.range() * n.bin_edge(),
