@@ -24,7 +24,7 @@ endfunction()
 
 # Every folder against every folder: the table of the architecture, written out a second time.
 set(may "core>core;kernel>core;kernel>kernel;cells>core;cells>cells;physics>core;physics>kernel;physics>cells;physics>physics"
-        "integrator>core;integrator>integrator;boundary>core;boundary>cells;boundary>boundary;backend>core;backend>backend"
+        "integrator>core;integrator>integrator;boundary>core;boundary>cells;boundary>boundary;backend>core;backend>physics;backend>backend"
         "measure>core;measure>measure;io>core;io>io")
 foreach(from IN LISTS folders)
     foreach(to IN LISTS folders)

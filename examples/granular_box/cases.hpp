@@ -78,7 +78,6 @@ struct Spring {
 /// Discs of the seed deck: no friction, no loss, no gravity.
 struct Seed {
     static constexpr int dim = 2;
-    static constexpr spate::Neighbours neighbours = spate::Discs::neighbours;
     static constexpr bool rough = false;
     inline static const Numbers numbers{.particles = 262144};
     inline static const example::Options defaults{
@@ -99,8 +98,6 @@ struct Seed {
 template <int Dim>
 struct Rough {
     static constexpr int dim = Dim;
-    /// Dense and slow: what is kept of a pair in the skin costs more than a rebuild.
-    static constexpr spate::Neighbours neighbours{.skin = 0.1, .finer = 1, .window = 1};
     static constexpr bool rough = true;
     static auto contact(Numbers const& n)
     {

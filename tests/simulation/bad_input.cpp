@@ -124,7 +124,7 @@ TEST(BadInput, OfTheTerms)
         cases.push_back(tank("ArtificialViscosity.alpha", text, not_negative, [x = x](Tank& t) { t.alpha = x; }));
         cases.push_back(tank("LaminarViscosity.mu", text, not_negative + "Pa s]", [x = x](Tank& t) { t.mu = x; }));
         cases.push_back(tank("LaminarViscosity.eps", text, not_negative, [x = x](Tank& t) { t.laminar_eps = x; }));
-        cases.push_back(grains("LinearSpring.k", text, not_negative + "N/m]", [x = x](Grains& s) { s.k = x; }));
+        cases.push_back(grains("LinearSpring.k", text, positive + "N/m]", [x = x](Grains& s) { s.k = x; }));
     }
     cases.push_back(tank("Gravity.g[1]", "nan", "a finite number [m/s^2]", [](Tank& t) { t.g[1] = nan_value; }));
     cases.push_back(tank("Gravity.g[0]", "inf", "a finite number [m/s^2]", [](Tank& t) { t.g[0] = infinite; }));
@@ -189,7 +189,12 @@ TEST(BadInput, OfARun)
         tank("cfl", "nan", "above 0 and at most 10", [](Tank& t) { t.run.cfl = nan_value; }),
         tank("cfl", "11", "above 0 and at most 10", [](Tank& t) { t.run.cfl = 11; }),
         tank("steps", "-1", "0 or above", [](Tank& t) { t.run.steps = -1; }),
-        grains("dt", "0", "above 0: the model has no criterion that bounds the step", [](Grains& s) { s.k = 0; }),
+        Case{"dt", "0", "above 0: the model has no criterion that bounds the step",
+             [] {
+                 Simulation sim(dem<2>({.mass = 0.1, .radius = 0.01}, Gravity<2>{}), SymplecticEuler{}, Open{});
+                 sim.add({{0.5, 0.5}});
+                 sim.run({.steps = 1});
+             }},
     });
 }
 TEST(BadInput, OfTheMachinery)
