@@ -9,8 +9,8 @@ using namespace spate;
 
 auto grains()
 {
-    return Simulation(dem<2>({.mass = 0.1, .radius = 0.01}, LinearSpring{.k = 1e5}), Leapfrog{}, Open{}, Serial{}, Double{},
-                      Watch{.overlap = 2});
+    return Simulation(dem<2>({.mass = 0.1, .radius = 0.01}, LinearSpring{.k = 1e5}), Leapfrog{}, Open{}, Serial{},
+                      Double{}, Watch{.overlap = 2});
 }
 
 TEST(Open, HasNoEnd)
