@@ -140,9 +140,9 @@ public:
             }
             at.push_back(x);
         }
-        if constexpr (Engine::alone) p.resize(first + at.size());
-        else if (a_part) system_.template adopt<0>(std::move(numbers), placed);
-        else p.resize(first + at.size());
+        if constexpr (!Engine::alone)
+            if (a_part) system_.template adopt<0>(std::move(numbers), placed);
+        if (!a_part) p.resize(first + at.size());
         for (std::size_t k = 0; k < at.size(); ++k) {
             p.put(position, first + k, at[k]);
             begin(p, first + k, box, start);

@@ -55,7 +55,7 @@ public:
         each([&](std::size_t i, std::size_t j, T const* values) {
             Pair& p = pairs_[next[place_of(i)]++];
             p.i = target.id()[i], p.j = id_of(j, source, of, foreign);
-            for (int c = 0; c < Count; ++c) p.value[std::size_t(c)] = values[c * W];
+            for (int c = 0; c < Count; ++c) p.value[std::size_t(c)] = values[std::ptrdiff_t(c) * W];
         });
         if (!dense) std::sort(pairs_.begin(), pairs_.end(), before);
         else
