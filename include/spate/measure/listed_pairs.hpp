@@ -3,6 +3,7 @@
 /// \brief A walk over the pairs that neighbour lists hold, one at a time: for looks that are rare.
 #pragma once
 
+#include "spate/core/fields.hpp"
 #include "spate/core/pack.hpp"
 #include "spate/core/vec.hpp"
 
