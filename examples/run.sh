@@ -20,17 +20,17 @@ usage()
     cat <<END
 usage: bash examples/run.sh NAME [options]
        bash examples/run.sh --build NAME [options]    build it and print where it is, do not run it
+       bash examples/run.sh --ask NAME [options]      only ask for it: the next build makes all that were asked for
        bash examples/run.sh NAME --help               the options of an example
 
 NAME is one of: ${examples[*]-}
 END
 }
 
-build_only=no
-if [[ ${1-} == --build ]]; then
-    build_only=yes
-    shift
-fi
+how=run
+case ${1-} in
+    --build | --ask) how=${1#--}; shift ;;
+esac
 case ${1-} in
     --help | -h) usage; exit 0 ;;
     "") usage >&2; exit 2 ;;
@@ -129,16 +129,20 @@ done
 # One build folder for all; a lock, so that two runs do not build in it at once.
 build=$root/build/examples
 binary=$build/$composition/$name
-build_it()
+ask_for_it()
 {
     local wanted file=$build/compositions/$composition.cmake
-    bash "$root/tools/setup.sh" --with examples || return
     mkdir -p "$build/compositions"
     exec 9> "$build/lock"
     flock 9
     wanted="set(example $name)
 set(definitions$definitions)"
     [[ -f $file && $(< "$file") == "$wanted" ]] || echo "$wanted" > "$file"
+}
+build_it()
+{
+    bash "$root/tools/setup.sh" --with examples || return
+    ask_for_it
     local log=$build/$composition.log
     [[ -x $binary ]] || echo "run.sh: building $composition" >&2
     if [[ ! -f $build/build.ninja ]]; then
@@ -148,13 +152,17 @@ set(definitions$definitions)"
     cmake --build "$build" -j 2 --target "$composition" > "$log" 2>&1 || { cat "$log" >&2; return 1; }
     exec 9>&-
 }
+if [[ $how == ask ]]; then
+    ask_for_it
+    exit 0
+fi
 build_it || {
     code=$?
     echo "run.sh: $composition could not be built" >&2
     exit "$code"
 }
 
-if [[ $build_only == yes ]]; then
+if [[ $how == build ]]; then
     echo "$binary"
     exit 0
 fi

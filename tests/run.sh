@@ -58,7 +58,7 @@ if [[ -n $suites ]]; then
     read -ra names <<< "$suites"
     for name in "${names[@]}"; do
         case $name in
-            compile | consumer | includes) targets+=(spate_precompiled) ;;
+            compile | consumer | includes | instructions | bench) targets+=(spate_precompiled) ;;
             thread_sanitizer) targets+=(thread_sanitizer_race thread_sanitizer_clean) ;;
             *) targets+=("test_$name") ;;
         esac

@@ -28,14 +28,14 @@ public:
         if (by_pressure_) scene.refresh();
         draw(scene, numbered());
     }
-    void end(auto& scene)
+    [[gnu::cold]] void end(auto& scene)
     {
         if (by_pressure_) scene.refresh();
         draw(scene, file());
     }
     [[nodiscard]] std::filesystem::path file() const;
     /// What a restart needs: f(name, number).
-    void notes(auto const& f)
+    [[gnu::cold]] void notes(auto const& f)
     {
         every_.notes("pictures", f);
         f("pictures_count", count_);
@@ -44,7 +44,7 @@ public:
 private:
     /// The ball that a particle fills: a grain's own radius, else that of the volume m/rho0.
     template <class Scene>
-    static double radius_of(Scene const& scene, auto const& p, std::size_t i)
+    [[gnu::cold]] static double radius_of(Scene const& scene, auto const& p, std::size_t i)
     {
         using P = std::remove_cvref_t<decltype(p)>;
         using Physics = std::remove_cvref_t<decltype(scene.physics())>;

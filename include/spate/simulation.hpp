@@ -746,13 +746,11 @@ private:
         });
         if (i < p.size()) {
             const auto [name, value] = detail::not_finite(p, i);
-            throw BadInput(name + " of particle " + std::to_string(p.id()[i]), text(value), "a finite number");
+            detail::refuse_particle(name, p.id()[i], value, "a finite number");
         }
         for_each(Q::fields & Fields{density, mass}, [&]<class F>(F f) {
             const std::size_t k = detail::first_by_id(p, [&](std::size_t j) { return !(p.at(f, j) > 0); });
-            if (k < p.size())
-                throw BadInput(std::string(F::name) + " of particle " + std::to_string(p.id()[k]), text(p.at(f, k)),
-                               "above 0");
+            if (k < p.size()) detail::refuse_particle(F::name, p.id()[k], p.at(f, k), "above 0");
         });
         if constexpr (Set<Q::uniform>::template contains<Mass>)
             require(p.empty() || p.value(mass) > 0, "mass", p.value(mass),
@@ -772,16 +770,18 @@ private:
                            "inside the walls");
         const double most = system_.farthest(); // beyond, forces are noise
         for (std::size_t k = 0; k < p.size(); ++k)
-            for (int c = 0; c < dim; ++c)
-                require(std::abs(p.at(position, k)[c]) <= most, "position of particle " + std::to_string(p.id()[k]),
-                        p.at(position, k)[c],
-                        "at most " + text(most) +
-                            " m from the origin: there rounding is a hundredth of the particles' length");
+            for (auto const& x : p.column(position))
+                if (!(std::abs(x[k]) <= most))
+                    detail::refuse_particle(position.name, p.id()[k], x[k],
+                                            "at most " + text(most) +
+                                                " m from the origin: there rounding is a hundredth of the particles' "
+                                                "length");
         if constexpr (Set<Q::fields>::template contains<Radius> && requires { physics().interaction.largest; })
             for (std::size_t k = first; k < p.size(); ++k)
-                require(p.at(radius, k) <= physics().interaction.largest,
-                        "radius of particle " + std::to_string(p.id()[k]), p.at(radius, k),
-                        "at most the interaction's largest, " + text(physics().interaction.largest) + " m");
+                if (!(p.at(radius, k) <= physics().interaction.largest))
+                    detail::refuse_particle(radius.name, p.id()[k], p.at(radius, k),
+                                            "at most the interaction's largest, " +
+                                                text(physics().interaction.largest) + " m");
     }
     [[gnu::cold]] Grid<dim> make_grid() const
     {

@@ -8,16 +8,28 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace spate {
 
 /// One parameter is out of range: name, value, and what is allowed.
 struct BadInput : std::invalid_argument {
-    [[gnu::cold]] BadInput(std::string const& parameter, std::string const& value, std::string const& allowed)
-        : std::invalid_argument("spate: " + parameter + " is " + value + "; allowed is " + allowed)
+    [[gnu::cold]] BadInput(std::string_view parameter, std::string_view value, std::string_view allowed)
+        : std::invalid_argument(sentence(parameter, value, allowed))
     {}
     /// As another rank has said it.
     explicit BadInput(std::string const& sentence) : std::invalid_argument(sentence) {}
+
+private:
+    [[gnu::cold]] static std::string sentence(std::string_view parameter, std::string_view value,
+                                              std::string_view allowed)
+    {
+        std::string s = "spate: ";
+        for (std::string_view part :
+             {parameter, std::string_view(" is "), value, std::string_view("; allowed is "), allowed})
+            s += part;
+        return s;
+    }
 };
 
 /// A number as a message shows it: the shortest of up to 10 digits.
@@ -28,21 +40,35 @@ struct BadInput : std::invalid_argument {
     s << x;
     return s.str();
 }
-inline void require(bool holds, std::string const& parameter, double value, std::string const& allowed)
+namespace detail {
+[[noreturn, gnu::cold, gnu::noinline]] inline void refuse(std::string_view parameter, double value,
+                                                          std::string_view allowed, std::string_view unit = {})
 {
-    if (!holds) throw BadInput(parameter, text(value), allowed);
+    std::string all(allowed);
+    if (!unit.empty()) (((all += " [") += unit) += "]");
+    throw BadInput(parameter, text(value), all);
 }
-inline void require_positive(std::string const& parameter, double value, std::string const& unit)
+[[noreturn, gnu::cold, gnu::noinline]] inline void refuse_particle(std::string_view field, std::int64_t id,
+                                                                   double value, std::string_view allowed)
 {
-    require(value > 0 && std::isfinite(value), parameter, value, "a finite number above 0 [" + unit + "]");
+    refuse(std::string(field) + " of particle " + std::to_string(id), value, allowed);
 }
-inline void require_finite(std::string const& parameter, double value, std::string const& unit)
+} // namespace detail
+inline void require(bool holds, std::string_view parameter, double value, std::string_view allowed)
 {
-    require(std::isfinite(value), parameter, value, "a finite number [" + unit + "]");
+    if (!holds) detail::refuse(parameter, value, allowed);
 }
-inline void require_non_negative(std::string const& parameter, double value, std::string const& unit)
+inline void require_positive(std::string_view parameter, double value, std::string_view unit)
 {
-    require(value >= 0 && std::isfinite(value), parameter, value, "a finite number, 0 or above [" + unit + "]");
+    if (!(value > 0 && std::isfinite(value))) detail::refuse(parameter, value, "a finite number above 0", unit);
+}
+inline void require_finite(std::string_view parameter, double value, std::string_view unit)
+{
+    if (!std::isfinite(value)) detail::refuse(parameter, value, "a finite number", unit);
+}
+inline void require_non_negative(std::string_view parameter, double value, std::string_view unit)
+{
+    if (!(value >= 0 && std::isfinite(value))) detail::refuse(parameter, value, "a finite number, 0 or above", unit);
 }
 
 /// Where a run stopped, and on what.

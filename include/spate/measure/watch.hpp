@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <string_view>
 
 namespace spate {
 
@@ -64,13 +65,13 @@ std::size_t first_by_id(P const& p, auto const& is)
 }
 /// The first field of particle i that is not finite, or whose square is not: its name and value.
 template <class P>
-[[gnu::cold]] std::pair<std::string, double> not_finite(P const& p, std::size_t i)
+[[gnu::cold]] std::pair<std::string_view, double> not_finite(P const& p, std::size_t i)
 {
-    std::pair<std::string, double> found{"", 0};
+    std::pair<std::string_view, double> found{"", 0};
     for_each(P::fields, [&]<class F>(F f) {
         for (int c = 0; c < components<F, P::dim> && found.first.empty(); ++c) {
             const auto value = p.column(f)[std::size_t(c)][i];
-            if (!std::isfinite(value * value)) found = {std::string(F::name), value};
+            if (!std::isfinite(value * value)) found = {F::name, value};
         }
     });
     return found;
@@ -99,7 +100,8 @@ template <class P>
     if (i == p.size()) return;
     StopFacts f = detail::facts_of(p, i);
     f.step = step, f.time = time;
-    std::tie(f.quantity, f.value) = detail::not_finite(p, i);
+    const auto [quantity, value] = detail::not_finite(p, i);
+    f.quantity = quantity, f.value = value;
     f.limit = std::sqrt(double(std::numeric_limits<typename P::real>::max())); // squares must be finite too
     const Origin from = origin();
     if (!from.term.empty()) { // neighbours may have ids that are less

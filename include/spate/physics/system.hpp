@@ -74,13 +74,18 @@ public:
     using Parts = std::conditional_t<alone, Undivided, Decomposition<dim, T, PairT, species_count, Party>>;
 
     /// \param saves  whether anyone needs the start of a step: an integrator, or the watch
-    System(P physics, B boundary, Workers backend, Neighbours neighbours, bool saves)
+    [[gnu::cold]] System(P physics, B boundary, Workers backend, Neighbours neighbours, bool saves)
         : physics_(std::move(physics)), boundary_(std::move(boundary)), backend_(backend), neighbours_(neighbours),
           saves_(saves), grid_({}, Edges<dim>(Edge::open), 1, 1, 1), terms_(M::terms_of(physics_, boundary_)),
           parts_(ranks_of(backend_))
     {
         for_each(P::uniform, [&](auto f) { mobile().value(f) = physics_.uniforms[f]; });
     }
+    System(System const&) = default;
+    System(System&&) = default;
+    System& operator=(System const&) = default;
+    System& operator=(System&&) = default;
+    [[gnu::cold]] ~System() = default; // small, and quick to compile
 
     // ---- the particles
     template <int s>
