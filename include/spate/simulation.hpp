@@ -579,6 +579,9 @@ private:
     static void check_physics(P const& physics, B const& boundary, Neighbours const& n)
     {
         physics.check();
+        // Lists are made of squares in float, in which these are finite and not 0.
+        const double range = physics.interaction.range();
+        require(range > 1e-18 && range < 1e18, "the range of interaction", range, "between 1e-18 and 1e18 [m]");
         boundary.check(physics.interaction.range() * (1 + n.skin));
     }
     /// What the physics leaves to the spacing of the particles.
@@ -862,6 +865,7 @@ private:
         free_dt_ = t.dt;
         if (step_ == 0) advise(t.dt);
         if (time_ + t.dt * (1 + 1e-9) >= o.until) t.bound(o.until - time_, "end");
+        if (!std::isfinite(time_ + t.dt)) stop_time(time_ + t.dt);
         dt_ = t.dt, criterion_ = t.criterion;
     }
     /// Warns where theory predicts growth at this step.
@@ -872,6 +876,12 @@ private:
             auto const& p = system_.mobile();
             if (!p.empty()) spacing = std::pow(p.at(mass, 0) / equation_of_state(physics()).rho0, 1.0 / dim);
             spacing = system_.ranks().all(spacing, agree::Most{});
+            constexpr double most = 16; // spacings in a range: theory sums over the lattice
+            if (const double in = physics().interaction.range() / spacing; spacing > 0 && !(in <= most)) {
+                report_.warnings.push_back("the range of interaction is " + text(in) +
+                                           " spacings: nothing is foretold of stability");
+                spacing = 0;
+            }
         }
         report_.stable = stable_step<I>(physics(), spacing, stiffness_, dt);
         for (auto& warning : advice<I>(physics(), spacing, stiffness_, dt)) report_.warnings.push_back(warning);
@@ -920,6 +930,13 @@ private:
         StopFacts f;
         f.step = step_, f.time = time_, f.quantity = "dt [s]", f.value = dt, f.limit = 1e-3 * first_dt_;
         throw DtCollapse(f);
+    }
+    [[noreturn, gnu::cold]] void stop_time(double next) const
+    {
+        StopFacts f;
+        f.step = step_, f.time = time_, f.quantity = "the time of the next step [s]", f.value = next;
+        f.limit = std::numeric_limits<double>::max();
+        throw NonFinite(f);
     }
     void look(Extremes const& e)
     {
