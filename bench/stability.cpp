@@ -45,6 +45,16 @@ double largest_factor(std::vector<Mode> const& modes, double dt)
     for (auto const& m : modes) most = std::max(most, factor<Integrator>(m.omega * dt, m.gamma * dt));
     return most;
 }
+/// The step up to which no mode grows, over 2 / omega; 0: none.
+template <class Integrator>
+double limit(std::vector<Mode> const& modes, double omega)
+{
+    double low = 1e-4, high = 10;
+    auto stable = [&](double x) { return largest_factor<Integrator>(modes, 2 * x / omega) <= 1 + 1e-12; };
+    if (!stable(low)) return 0;
+    while (high / low > 1.001) (stable(std::sqrt(low * high)) ? low : high) = std::sqrt(low * high);
+    return low;
+}
 Mode stiffest(std::vector<Mode> const& modes)
 {
     Mode most{0, 0};
@@ -172,6 +182,7 @@ void lattice(benchmark::State& state)
         waves.append(to, 3, [&](std::size_t place, int q) { return at[place][std::size_t(q)]; });
     });
     state.counters["x"] = x, state.counters["y"] = y;
+    state.counters["limit"] = limit<Integrator>(modes_of_the_lattice(nu), of_unit.omega);
 }
 
 // ---- the chain of contacts
@@ -257,6 +268,7 @@ void chain(benchmark::State& state)
     look(state, discs.scene(), dt, largest_factor<Integrator>(modes, dt),
          [&](std::vector<double>& to) { discs.waves(to); });
     state.counters["x"] = x, state.counters["y"] = y;
+    state.counters["limit"] = limit<Integrator>(modes, omega);
 }
 /// x: stiffness [N/m]; y: ratio of mass; steps of 1e-5 s, or by the criteria.
 void two_masses(benchmark::State& state, double dt)
@@ -268,6 +280,7 @@ void two_masses(benchmark::State& state, double dt)
     look(state, discs.scene(), dt, factor<Leapfrog>(omega * (dt > 0 ? dt : by_criterion), 0),
          [&](std::vector<double>& to) { discs.whole(to); });
     state.counters["x"] = k, state.counters["y"] = ratio;
+    if (dt > 0) state.counters["limit"] = 2 * m / (dt * dt) / (1 + ratio);
     state.counters["dt"] = discs.scene().dt(), state.counters["z"] = omega * discs.scene().dt();
 }
 
