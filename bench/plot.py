@@ -360,13 +360,14 @@ def stability(run):
             map_of(axis, groups[f"{what}<{scheme}>"], none)
             axis.set_title(scheme)
             axis.axvline(1, color=GREY, lw=1, ls=":")
+            axis.set_xlim(2.5e-3, 3)
             axis.set_yticks([none, 1e-3, 1e-2, 0.1, 1], ["none", "0.001", "0.01", "0.1", "1"])
             axis.minorticks_off()
         for axis in axes[1]:
             axis.set_xlabel("dt over 2 / largest omega, the limit without damping")
         for axis in axes[:, 0]:
             axis.set_ylabel(f"largest gamma of {damping} over largest omega")
-        axes[0, 1].legend(loc="upper left", frameon=True, fontsize=10, framealpha=0.95)
+        figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside upper center", ncol=4)
         save(figure, f"stability_{what}", run.footer())
     figure, axes = plt.subplots(1, 2, figsize=(12, 4.8), layout="constrained", sharey=True)
     figure.get_layout_engine().set(rect=(0, 0.05, 1, 0.95))
@@ -374,7 +375,7 @@ def stability(run):
         map_of(axis, groups[f"two_masses/{kind}"])
         axis.set(xlabel="stiffness [N/m]", title=f"Leapfrog, {title}")
     axes[0].set_ylabel("ratio of the two masses in turn")
-    axes[0].legend(loc="lower left", frameon=True, fontsize=10, framealpha=0.95)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper center", ncol=4)
     save(figure, "stability_masses", run.footer())
 
 

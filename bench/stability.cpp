@@ -23,8 +23,9 @@ double factor(double z, double g)
 {
     using Complex = std::complex<double>;
     if constexpr (Integrator::imaginary_limit > 0) { // staggered: R^2 - (2 - g - z^2) R + 1 - g = 0
-        const Complex b = 1 - g / 2 - z * z / 2, root = std::sqrt(b * b - (1 - g));
-        return std::max(std::abs(b + root), std::abs(b - root));
+        const double half = (g + z * z) / 2, square = half * half - z * z;
+        if (square < 0) return std::sqrt(1 - g);
+        return std::max(std::abs(1 - half + std::sqrt(square)), std::abs(1 - half - std::sqrt(square)));
     }
     else {
         double most = 0;
