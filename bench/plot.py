@@ -355,7 +355,7 @@ def stability(run):
     schemes = ("ForwardEuler", "RungeKutta2", "SymplecticEuler", "Leapfrog")
     for what, damping in (("lattice", "viscosity"), ("chain", "dashpots")):
         figure, axes = plt.subplots(2, 2, figsize=(12, 8.6), layout="constrained", sharex=True, sharey=True)
-        figure.get_layout_engine().set(rect=(0, 0.03, 1, 0.97))
+        figure.get_layout_engine().set(rect=(0, 0.03, 1, 0.93))
         for axis, scheme in zip(axes.flat, schemes):
             map_of(axis, groups[f"{what}<{scheme}>"], none)
             axis.set_title(scheme)
@@ -367,15 +367,15 @@ def stability(run):
             axis.set_xlabel("dt over 2 / largest omega, the limit without damping")
         for axis in axes[:, 0]:
             axis.set_ylabel(f"largest gamma of {damping} over largest omega")
-        figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside upper center", ncol=4)
+        figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="upper center", ncol=4)
         save(figure, f"stability_{what}", run.footer())
     figure, axes = plt.subplots(1, 2, figsize=(12, 4.8), layout="constrained", sharey=True)
-    figure.get_layout_engine().set(rect=(0, 0.05, 1, 0.95))
+    figure.get_layout_engine().set(rect=(0, 0.05, 1, 0.88))
     for axis, kind, title in zip(axes, ("fixed", "by_criterion"), ("dt = 1e-5 s", "dt by the criterion of contacts")):
         map_of(axis, groups[f"two_masses/{kind}"])
         axis.set(xlabel="stiffness [N/m]", title=f"Leapfrog, {title}")
     axes[0].set_ylabel("ratio of the two masses in turn")
-    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper center", ncol=4)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="upper center", ncol=4)
     save(figure, "stability_masses", run.footer())
 
 
