@@ -300,7 +300,7 @@ public:
         if (outrun) stop_outrun(e.unmoved());
         if constexpr (W::on) {
             if (step_ == 0) look_at_start();
-            if (step_ % watch_.energy_every == 0) look_at_energy();
+            if (energy_due()) look_at_energy();
             if constexpr (traces) keep_step();
         }
         system_.template phase<When::before_step>(step_, [] {}); // the lists are those of this step
@@ -1066,6 +1066,13 @@ private:
         together(system_.ranks(), [&] {
             stop_if_outside(system_.mobile(), system_.boundary(), physics().interaction.range(), step_, time_);
         });
+    }
+    /// By the number of the step and what has been found so far: a run that goes on from a checkpoint looks when it would have.
+    [[nodiscard]] bool energy_due() const
+    {
+        if (step_ % watch_.energy_every != 0) return false;
+        const std::int64_t seldom = std::int64_t(watch_.calm) * watch_.energy_every;
+        return step_ < seldom || step_ % seldom == 0 || report_.energy_rise > watch_.warn / 2;
     }
     void look_at_energy()
     {
