@@ -972,7 +972,7 @@ private:
     [[gnu::cold]] void look_at_start()
     {
         if constexpr (Engine::any_pairs && Engine::M::planner.meet(0, 0))
-            look_at_pairs(system_, watch_.overlap, step_, time_, report_.warnings);
+            together(system_.ranks(), [&] { look_at_pairs(system_, watch_.overlap, step_, time_, report_.warnings); });
     }
     [[gnu::cold]] [[nodiscard]] double least_radius() const
     {

@@ -114,12 +114,14 @@ template <class P>
     if (from.at_one_place) throw CoincidentParticles(f);
     throw NonFinite(f);
 }
-/// Throws EosDomain for the first particle whose density is not above 0 or is above `most` [kg/m^3].
+/// Throws EosDomain for the first particle whose density is not above 0 or is above `most` [kg/m^3]; nothing where it is
+/// another rank's.
 template <class P>
-[[noreturn, gnu::cold]] void stop_of_density(P const& p, double most, std::int64_t step, double time)
+[[gnu::cold]] void stop_of_density(P const& p, double most, std::int64_t step, double time)
 {
     const std::size_t i =
         detail::first_by_id(p, [&](std::size_t k) { return !(p.at(density, k) > 0) || p.at(density, k) > most; });
+    if (i == p.size()) return;
     StopFacts f = detail::facts_of(p, i);
     f.step = step, f.time = time;
     f.quantity = "density [kg/m^3]", f.value = p.at(density, i);
