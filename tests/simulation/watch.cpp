@@ -229,6 +229,18 @@ TEST(Watch, StopsWhenTheStepCollapses)
             EXPECT_THAT(stop.what(), HasSubstr("dt [s] is "));
         });
 }
+TEST(Watch, StopsBeforeATimeThatIsNoNumber)
+{
+    auto sim = collision(SymplecticEuler{});
+    for (std::uint32_t id : {0u, 1u}) sim.particles().put(velocity, place_of(sim, id), {{0, 0}});
+    expect_stop<NonFinite>(
+        "NonFinite", [&] { sim.run({.steps = 3, .dt = 1.7e308}); },
+        [](Stop const& stop) {
+            EXPECT_EQ(stop.facts().step, 1);
+            EXPECT_EQ(stop.facts().particle, -1);
+            EXPECT_THAT(stop.what(), HasSubstr("the time of the next step [s] is inf"));
+        });
+}
 /// A contact that has no stiffness, so that none begins too deep.
 struct Faint {
     static constexpr Fields adds{acceleration};
