@@ -322,7 +322,64 @@ def hand_loop(run):
         table([[k, v] for k, v in b.items() if isinstance(v, float) and k not in ("real_time", "cpu_time")], [name, ""])
 
 
+def map_of(axis, points, none=None):
+    """Stable, bounded, stopped; theory's curve over them. none: where the row of y = 0 is drawn."""
+    for state, colour, label in ((0, "#a6cbe8", "stable"), (1, "#f6c34d", "bounded: grows, no stop"), (2, ORANGE, "stopped")):
+        own = [p for p in points if p["state"] == state]
+        axis.scatter([p["x"] for p in own], [p["y"] or none for p in own], s=22, marker="s", color=colour, label=label)
+    rows = sorted({(p["y"] or none, p["limit"]) for p in points if p.get("limit")})
+    above = [r for r in rows if r[0] != none]
+    if above:
+        axis.plot([x for _, x in above], [y for y, _ in above], color="black", lw=1.6, label="theory: largest |R| is 1")
+    for y, x in rows:
+        if y == none:
+            axis.plot([x], [y], "k|", ms=11, mew=2)
+    axis.set_xscale("log")
+    axis.set_yscale("log")
+    axis.grid(visible=False)
+
+
+def stability(run):
+    groups = {}
+    for name, b in run.all.items():
+        groups.setdefault(re.sub(r"(/-?\d+)+$", "", name), []).append(b)
+    rows, none = [], 10**-3.4
+    for name, points in groups.items():
+        said = lambda p, least: p["theory"] * 1000 > least  # growth over the half of a run that is compared
+        wrong = sum((p["state"] == 0 and said(p, 0.1)) or (p["state"] > 0 and p["theory"] < 1e-11) for p in points)
+        wrong += sum(p["state"] < 2 and 2 * said(p, 11.5) for p in points)  # 1e10 over the run
+        states = [f"{sum(p['state'] == k for p in points)}" for k in range(3)]
+        most = max(p["steps"] for p in points if p["state"] == 2) if states[2] != "0" else 0
+        rows.append([name, str(len(points)), *states, str(wrong), f"{most:.0f}" if most else ""])
+    table(rows, ["map", "points", "stable", "bounded", "stopped", "against theory", "steps of the latest stop"])
+    schemes = ("ForwardEuler", "RungeKutta2", "SymplecticEuler", "Leapfrog")
+    for what, damping in (("lattice", "viscosity"), ("chain", "dashpots")):
+        figure, axes = plt.subplots(2, 2, figsize=(12, 8.6), layout="constrained", sharex=True, sharey=True)
+        figure.get_layout_engine().set(rect=(0, 0.03, 1, 0.93))
+        for axis, scheme in zip(axes.flat, schemes):
+            map_of(axis, groups[f"{what}<{scheme}>"], none)
+            axis.set_title(scheme)
+            axis.axvline(1, color=GREY, lw=1, ls=":")
+            axis.set_xlim(2.5e-3, 3)
+            axis.set_yticks([none, 1e-3, 1e-2, 0.1, 1], ["none", "0.001", "0.01", "0.1", "1"])
+            axis.minorticks_off()
+        for axis in axes[1]:
+            axis.set_xlabel("dt over 2 / largest omega, the limit without damping")
+        for axis in axes[:, 0]:
+            axis.set_ylabel(f"largest gamma of {damping} over largest omega")
+        figure.legend(*axes[0, 0].get_legend_handles_labels(), loc="upper center", ncol=4)
+        save(figure, f"stability_{what}", run.footer())
+    figure, axes = plt.subplots(1, 2, figsize=(12, 4.8), layout="constrained", sharey=True)
+    figure.get_layout_engine().set(rect=(0, 0.05, 1, 0.88))
+    for axis, kind, title in zip(axes, ("fixed", "by_criterion"), ("dt = 1e-5 s", "dt by the criterion of contacts")):
+        map_of(axis, groups[f"two_masses/{kind}"])
+        axis.set(xlabel="stiffness [N/m]", title=f"Leapfrog, {title}")
+    axes[0].set_ylabel("ratio of the two masses in turn")
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="upper center", ncol=4)
+    save(figure, "stability_masses", run.footer())
+
+
 if __name__ == "__main__":
-    draw = {f.__name__: f for f in (kernel, cell_size, step, term_deleted, hand_loop)}
+    draw = {f.__name__: f for f in (kernel, cell_size, step, term_deleted, hand_loop, stability)}
     if len(sys.argv) == 2 and sys.argv[1] in draw:
         draw[sys.argv[1]](Run(sys.argv[1]))

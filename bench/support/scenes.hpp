@@ -89,8 +89,8 @@ inline auto discs(int edge, double phi, int threads, Neighbours neighbours)
     constexpr double r = 0.01; // [m]
     const double a = r * std::sqrt(2 * std::numbers::pi / (std::sqrt(3.0) * phi)), b = a * std::sqrt(3.0) / 2;
     Simulation box(dem<2>({.mass = 0.1, .radius = r}, LinearSpring{.k = 1e5}), SymplecticEuler{},
-                   Periodic(Box<2>{{0, 0}, {edge * a, edge * b}}), Threads{.count = threads}, Double{},
-                   Watch{.energy_every = 100}, neighbours);
+                   Periodic(Box<2>{{0, 0}, {edge * a, edge * b}}), Threads{.count = threads}, Double{}, Watch{},
+                   neighbours);
     Dice dice;
     const double jitter = phi > 0.5 ? 0.05 * r : 0.15 * a;
     for (int j = 0; j < edge; ++j)

@@ -19,7 +19,7 @@ void add()
         constexpr int phases = 64;
         const double dt = s.omega_dt / omega;
         // skin > 0: the watch as it is; else it only looks
-        const Watch watch{.energy_every = 1, .warn = 1e9, .stop = s.skin > 0 ? 0.05 : 1e9};
+        const Watch watch{.energy_every = 1, .warn = 1e9, .stop = s.skin > 0 ? 0.05 : 1e9, .calm = 1};
         Outcome all;
         double squares = 0, energy = 0;
         try {

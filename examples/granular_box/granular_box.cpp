@@ -24,10 +24,7 @@ int main(int argc, char** argv)
             std::apply([&](auto... t) { return dem<Case::dim>({.mass = n.mass, .radius = n.radius}, t...); }, terms);
         const auto faces = std::apply([&](auto... t) { return Case::walls(t...); }, contact);
         const auto walls = std::apply([&](auto... f) { return Walls(*start.box, f...); }, faces);
-        // Energy is looked at often where the scheme may create it.
-        const Watch watch{.energy_every = scene::Integrator::growth(1) > 0 ? 10 : 100};
-        Simulation box(grains, scene::Integrator{}, walls, scene::backend(o.threads, o.cell), scene::Precision{},
-                       watch);
+        Simulation box(grains, scene::Integrator{}, walls, scene::backend(o.threads, o.cell), scene::Precision{});
         start.add_to(box);
         example.run(box);
     });

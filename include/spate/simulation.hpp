@@ -300,7 +300,7 @@ public:
         if (outrun) stop_outrun(e.unmoved());
         if constexpr (W::on) {
             if (step_ == 0) look_at_start();
-            if (step_ % watch_.energy_every == 0) look_at_energy();
+            if (energy_due()) look_at_energy();
             if constexpr (traces) keep_step();
         }
         system_.template phase<When::before_step>(step_, [] {}); // the lists are those of this step
@@ -579,6 +579,9 @@ private:
     static void check_physics(P const& physics, B const& boundary, Neighbours const& n)
     {
         physics.check();
+        // Lists are made of squares in float, in which these are finite and not 0.
+        const double range = physics.interaction.range();
+        require(range > 1e-18 && range < 1e18, "the range of interaction", range, "between 1e-18 and 1e18 [m]");
         boundary.check(physics.interaction.range() * (1 + n.skin));
     }
     /// What the physics leaves to the spacing of the particles.
@@ -862,6 +865,7 @@ private:
         free_dt_ = t.dt;
         if (step_ == 0) advise(t.dt);
         if (time_ + t.dt * (1 + 1e-9) >= o.until) t.bound(o.until - time_, "end");
+        if (!std::isfinite(time_ + t.dt)) stop_time(time_ + t.dt);
         dt_ = t.dt, criterion_ = t.criterion;
     }
     /// Warns where theory predicts growth at this step.
@@ -872,6 +876,12 @@ private:
             auto const& p = system_.mobile();
             if (!p.empty()) spacing = std::pow(p.at(mass, 0) / equation_of_state(physics()).rho0, 1.0 / dim);
             spacing = system_.ranks().all(spacing, agree::Most{});
+            constexpr double most = 16; // spacings in a range: theory sums over the lattice
+            if (const double in = physics().interaction.range() / spacing; spacing > 0 && !(in <= most)) {
+                report_.warnings.push_back("the range of interaction is " + text(in) +
+                                           " spacings: nothing is foretold of stability");
+                spacing = 0;
+            }
         }
         report_.stable = stable_step<I>(physics(), spacing, stiffness_, dt);
         for (auto& warning : advice<I>(physics(), spacing, stiffness_, dt)) report_.warnings.push_back(warning);
@@ -921,6 +931,13 @@ private:
         f.step = step_, f.time = time_, f.quantity = "dt [s]", f.value = dt, f.limit = 1e-3 * first_dt_;
         throw DtCollapse(f);
     }
+    [[noreturn, gnu::cold]] void stop_time(double next) const
+    {
+        StopFacts f;
+        f.step = step_, f.time = time_, f.quantity = "the time of the next step [s]", f.value = next;
+        f.limit = std::numeric_limits<double>::max();
+        throw NonFinite(f);
+    }
     void look(Extremes const& e)
     {
         if constexpr (has_equation_of_state<P>) {
@@ -955,7 +972,7 @@ private:
     [[gnu::cold]] void look_at_start()
     {
         if constexpr (Engine::any_pairs && Engine::M::planner.meet(0, 0))
-            look_at_pairs(system_, watch_.overlap, step_, time_, report_.warnings);
+            together(system_.ranks(), [&] { look_at_pairs(system_, watch_.overlap, step_, time_, report_.warnings); });
     }
     [[gnu::cold]] [[nodiscard]] double least_radius() const
     {
@@ -1049,6 +1066,13 @@ private:
         together(system_.ranks(), [&] {
             stop_if_outside(system_.mobile(), system_.boundary(), physics().interaction.range(), step_, time_);
         });
+    }
+    /// By the number of the step and what has been found so far: a run that goes on from a checkpoint looks when it would have.
+    [[nodiscard]] bool energy_due() const
+    {
+        if (step_ % watch_.energy_every != 0) return false;
+        const std::int64_t seldom = std::int64_t(watch_.calm) * watch_.energy_every;
+        return step_ < seldom || step_ % seldom == 0 || report_.energy_rise > watch_.warn / 2;
     }
     void look_at_energy()
     {

@@ -209,6 +209,11 @@ TEST(BadInput, OfTheMachinery)
         tank("neighbours.trigger", "3", "0, or above 0 and at most", [](Tank& t) { t.neighbours.trigger = 3; }),
         tank("neighbours.finer", "0", "1 to 16", [](Tank& t) { t.neighbours.finer = 0; }),
         tank("Watch.energy_every", "0", "1 or above [steps]", [](Tank& t) { t.watch.energy_every = 0; }),
+        tank("Watch.calm", "0", "1 or above [looks]", [](Tank& t) { t.watch.calm = 0; }),
+        tank("the range of interaction", "1e+300", "between 1e-18 and 1e18 [m]", [](Tank& t) { t.h = 5e299; }),
+        tank("the range of interaction", "2e-19", "between 1e-18 and 1e18 [m]", [](Tank& t) { t.h = 1e-19; }),
+        tank("Bce.spacing", "0.02", "at least 0.0", [](Tank& t) { t.h = 1; }),
+        tank("Bce.spacing", "1e-10", "at least a billionth of the box length", [](Tank& t) { t.spacing = 1e-10; }),
         tank("Watch.stop", "nan", "a number above 0 [-]", [](Tank& t) { t.watch.stop = nan_value; }),
         tank("Watch.warn", "-0.01", "a number above 0 [-]", [](Tank& t) { t.watch.warn = -0.01; }),
     });
@@ -218,6 +223,8 @@ TEST(BadInput, OfAPeriodicSpace)
     expect_sentences({
         grains("periodic box length along axis 1", "0.03", "at least twice the reach of the neighbour lists, 0.0",
                [](Grains& s) { s.box.hi[1] = 0.03; }),
+        grains("periodic box length along axis 0", "1e+300", "at most 67108864 times the reach of the neighbour lists",
+               [](Grains& s) { s.box.hi[0] = 1e300; }),
         grains("box length along axis 0", "0", positive + "m]", [](Grains& s) { s.box.hi[0] = 0; }),
         grains("box length along axis 0", "nan", positive + "m]", [](Grains& s) { s.box.lo[0] = nan_value; }),
         {"face", "axis 2", "an axis of the space",

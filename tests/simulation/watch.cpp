@@ -162,7 +162,7 @@ TEST(Watch, StopsASchemeThatCreatesEnergy)
 }
 TEST(Watch, LetsASchemeThatKeepsEnergyRun)
 {
-    auto sim = collision(Leapfrog{}, Watch{.energy_every = 1});
+    auto sim = collision(Leapfrog{}, Watch{.energy_every = 1, .calm = 1});
     sim.run({.steps = 1000, .dt = 1e-4}); // energy swings by (omega dt)^2 / 4 = 0.5 % in a contact
     EXPECT_LT(sim.particles().at(velocity, place_of(sim, 0))[0], -0.9); // they did collide
     EXPECT_LT(sim.report().energy_rise, 0.01);
@@ -174,6 +174,38 @@ TEST(Watch, ItsLimitsAreTheUsers)
     sim.run({.steps = 30, .dt = 1e-3});
     EXPECT_GT(sim.report().energy_rise, 10);
     EXPECT_THAT(sim.report().warnings, Contains(HasSubstr("total energy has risen by ")).Times(1)); // told once
+}
+/// The steps at which the energy of two discs, one of which a hand makes faster at every step from 100 on, is seen to have
+/// risen.
+std::vector<std::int64_t> rises_seen(double faster, Watch watch)
+{
+    auto sim = collision(Leapfrog{}, watch);
+    for (std::uint32_t id : {0u, 1u}) sim.particles().put(velocity, place_of(sim, id), {{0, 1}}); // they never meet
+    std::vector<std::int64_t> steps;
+    double seen = 0;
+    while (sim.steps() < 400) {
+        sim.step({.dt = 1e-5});
+        if (sim.report().energy_rise > seen) seen = sim.report().energy_rise, steps.push_back(sim.steps() - 1);
+        if (sim.steps() < 100) continue;
+        const std::size_t i = place_of(sim, 0);
+        sim.particles().put(velocity, i, faster * sim.particles().at(velocity, i));
+    }
+    return steps;
+}
+TEST(Watch, LooksSeldomAtACalmEnergyAndOftenAtARisingOne)
+{
+    auto each = [](std::int64_t from, std::int64_t every, std::int64_t to) {
+        std::vector<std::int64_t> steps;
+        for (; from <= to; from += every) steps.push_back(from);
+        return steps;
+    };
+    // 0.03 % in 300 steps: half of `warn` is not reached.
+    auto expected = each(100, 5, 160);
+    expected.push_back(320);
+    EXPECT_EQ(rises_seen(1 + 1e-6, {.energy_every = 5, .calm = 32}), expected);
+    // 0.6 % in the 60 steps until 160, the next look after 80: from there on it is looked at every ten steps.
+    EXPECT_EQ(rises_seen(1 + 1e-4, {.energy_every = 10, .calm = 8}), each(160, 10, 390));
+    EXPECT_EQ(rises_seen(1 + 1e-4, {.energy_every = 10, .calm = 1}), each(100, 10, 390));
 }
 TEST(Watch, AForceAlongAPeriodicAxisIsASource)
 {
@@ -195,6 +227,18 @@ TEST(Watch, StopsWhenTheStepCollapses)
             EXPECT_EQ(stop.facts().step, 3);
             EXPECT_LT(stop.facts().value, stop.facts().limit);
             EXPECT_THAT(stop.what(), HasSubstr("dt [s] is "));
+        });
+}
+TEST(Watch, StopsBeforeATimeThatIsNoNumber)
+{
+    auto sim = collision(SymplecticEuler{});
+    for (std::uint32_t id : {0u, 1u}) sim.particles().put(velocity, place_of(sim, id), {{0, 0}});
+    expect_stop<NonFinite>(
+        "NonFinite", [&] { sim.run({.steps = 3, .dt = 1.7e308}); },
+        [](Stop const& stop) {
+            EXPECT_EQ(stop.facts().step, 1);
+            EXPECT_EQ(stop.facts().particle, -1);
+            EXPECT_THAT(stop.what(), HasSubstr("the time of the next step [s] is inf"));
         });
 }
 /// A contact that has no stiffness, so that none begins too deep.

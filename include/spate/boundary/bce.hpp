@@ -59,6 +59,7 @@ public:
             require_positive(length, box.size()[c], "m");
             const double n = box.size()[c] / spacing;
             require(n > 1 - 1e-6, "Bce.spacing", spacing, "at most the box length " + text(box.size()[c]) + " m");
+            require(n < 1e9, "Bce.spacing", spacing, "at least a billionth of the box length");
             require(std::abs(n - std::round(n)) < 1e-6 * n, length, box.size()[c],
                     "a whole number of spacings; the nearest is " + text(std::round(n) * spacing) +
                         " m, or take spacing " + text(box.size()[c] / std::round(n)) + " m");
@@ -106,7 +107,13 @@ public:
         return std::max(least_layers_, int(std::ceil(range / spacing_ - 1e-9)));
     }
     [[nodiscard]] double thickness(double range) const { return layers(range) * spacing_; }
-    void check(double reach) const { Periodic<Dim>::check_periodic(box_, edges_, reach); }
+    void check(double reach) const
+    {
+        constexpr double most = 64; // layers of markers
+        require(reach <= most * spacing_, "Bce.spacing", spacing_,
+                "at least " + text(reach / most) + " m, a 64th of the reach of the neighbour lists");
+        Periodic<Dim>::check_periodic(box_, edges_, reach);
+    }
 
     /// f(x) or f(x, part) for each marker, at rest, of walls that cover `range`.
     void place(double range, auto const& f) const

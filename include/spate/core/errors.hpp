@@ -182,6 +182,9 @@ struct OverlapTooDeep : Stop {
     if (name == "DtCollapse") throw DtCollapse(f);
     if (name == "SkinOutrun") throw SkinOutrun(f);
     if (name == "IndexOverflow") throw IndexOverflow(f);
+    if (name == "EosDomain") throw EosDomain(f);
+    if (name == "CoincidentParticles") throw CoincidentParticles(f);
+    if (name == "OverlapTooDeep") throw OverlapTooDeep(f, "move them apart, or take a smaller dt");
     throw Stop(name, f, "another rank has stopped");
 }
 

@@ -26,7 +26,7 @@ struct Failure {
     enum class Kind { none, stop, bad_input, other };
     Kind kind = Kind::none;
     int rank = 0;
-    std::int64_t step = 0, particle = -1;
+    std::int64_t step = 0, particle = -1, other = -1;
     int species = -1;
     double time = 0, position[3] = {}, velocity[3] = {}, value = 0, limit = 0;
     char name[32] = {}, quantity[160] = {}, what[640] = {};
@@ -42,6 +42,7 @@ struct Failure {
         StopFacts const& f = stop.facts();
         Failure mine;
         mine.kind = Kind::stop, mine.step = f.step, mine.particle = f.particle, mine.species = f.species;
+        mine.other = f.other;
         mine.time = f.time, mine.value = f.value, mine.limit = f.limit;
         std::copy_n(f.position, 3, mine.position), std::copy_n(f.velocity, 3, mine.velocity);
         put(mine.name, stop.name()), put(mine.quantity, f.quantity);
@@ -68,7 +69,7 @@ struct Failure {
         StopFacts f;
         f.step = step, f.time = time, f.particle = particle, f.species = species;
         std::copy_n(position, 3, f.position), std::copy_n(velocity, 3, f.velocity);
-        f.quantity = quantity, f.value = value, f.limit = limit;
+        f.quantity = quantity, f.value = value, f.limit = limit, f.other = other;
         throw_stop(name, f);
     }
 };

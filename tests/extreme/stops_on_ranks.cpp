@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A stop on three ranks is that of one: its kind, the particle, the step and the facts, on every rank.
+#include "spate/backend/virtual_ranks.hpp"
+#include "spate/spate.hpp"
+
+#include <functional>
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace spate;
+using Point = Vec<2, double>;
+
+constexpr double m = 0.1, r = 0.01, k = 1e5;
+const RunOptions by_criteria{.steps = 100}, short_steps{.steps = 100, .dt = 2e-4};
+
+/// Water at rest in a tank; a hand changes it after three steps.
+template <class Backend>
+auto tank(Backend backend)
+{
+    constexpr double dx = 0.02;
+    auto water = wcsph(CubicSpline<2>{.h = 1.2 * dx}, Tait{.rho0 = 1000, .c0 = 20}, Continuity<2>{}, PressureForce<2>{},
+                       ArtificialViscosity{.alpha = 0.1}, Gravity<2>{{0, -9.81}});
+    Simulation sim(water, SymplecticEuler{}, Bce(Box<2>{{}, {{0.4, 0.4}}}, dx, ByContinuity{}, open(top)), backend);
+    sim.fill(Box<2>{{}, {{0.4, 0.2}}}, dx, hydrostatic);
+    sim.run({.steps = 3});
+    return sim;
+}
+/// Discs at rest on a wide lattice in a periodic box, before their first step.
+template <class Backend>
+auto crowd(Backend backend)
+{
+    Simulation sim(dem<2>({.mass = m, .radius = r}, LinearSpring{.k = k}), ForwardEuler{},
+                   Periodic(Box<2>{{}, {{1, 1}}}), backend);
+    for (int i = 0; i < 400; ++i) sim.add({(i % 20 + 0.5) / 20, (i / 20 + 0.5) / 20});
+    return sim;
+}
+/// hand(sim) and a run, on one rank and on three.
+struct End {
+    std::string name = "ok", kind = "ok";
+    StopFacts facts;
+};
+template <class F>
+End end_of(F const& run)
+{
+    End end;
+    auto caught = [&](Stop const& stop, const char* kind) { end = {stop.name(), kind, stop.facts()}; };
+    try {
+        run();
+    }
+    catch (NonFinite const& s) {
+        caught(s, "NonFinite");
+    }
+    catch (OutOfDomain const& s) {
+        caught(s, "OutOfDomain");
+    }
+    catch (EnergyRunaway const& s) {
+        caught(s, "EnergyRunaway");
+    }
+    catch (DtCollapse const& s) {
+        caught(s, "DtCollapse");
+    }
+    catch (SkinOutrun const& s) {
+        caught(s, "SkinOutrun");
+    }
+    catch (IndexOverflow const& s) {
+        caught(s, "IndexOverflow");
+    }
+    catch (EosDomain const& s) {
+        caught(s, "EosDomain");
+    }
+    catch (CoincidentParticles const& s) {
+        caught(s, "CoincidentParticles");
+    }
+    catch (OverlapTooDeep const& s) {
+        caught(s, "OverlapTooDeep");
+    }
+    return end;
+}
+void expect_the_same(std::string const& name, auto const& scene, RunOptions const& o, auto const& hand)
+{
+    auto run = [&](auto backend) {
+        auto sim = scene(backend);
+        hand(sim);
+        return end_of([&] { sim.run(o); });
+    };
+    const End one = run(Serial{});
+    EXPECT_EQ(one.name, name);
+    std::vector<End> all(3);
+    VirtualRanks(3).run([&](auto rank) { all[std::size_t(rank.rank())] = run(OnRank{rank, Serial{}, 2, Balance{}}); });
+    for (End const& end : all) {
+        EXPECT_EQ(end.name, one.name);
+        EXPECT_EQ(end.kind, one.kind) << name; // who catches the type catches it on ranks too
+        StopFacts const &a = end.facts, &b = one.facts;
+        EXPECT_EQ(a.step, b.step) << name;
+        EXPECT_EQ(a.time, b.time) << name;
+        EXPECT_EQ(a.particle, b.particle) << name;
+        EXPECT_EQ(a.species, b.species) << name;
+        EXPECT_EQ(a.other, b.other) << name;
+        EXPECT_EQ(a.quantity, b.quantity) << name;
+        EXPECT_TRUE(a.value == b.value || (std::isnan(a.value) && std::isnan(b.value))) << name;
+        EXPECT_EQ(a.limit, b.limit) << name;
+        for (int c = 0; c < 2; ++c) {
+            EXPECT_EQ(a.position[c], b.position[c]) << name;
+            EXPECT_TRUE(a.velocity[c] == b.velocity[c] || (std::isnan(a.velocity[c]) && std::isnan(b.velocity[c])))
+                << name;
+        }
+    }
+}
+constexpr auto a_tank = [](auto backend) { return tank(backend); };
+constexpr auto a_crowd = [](auto backend) { return crowd(backend); };
+
+/// Who has the particle changes it.
+void of(auto& sim, std::uint32_t id, auto const& change)
+{
+    auto& p = sim.particles();
+    for (std::size_t i = 0; i < p.size(); ++i)
+        if (p.id()[i] == id) change(p, i);
+}
+TEST(StopsOnRanks, OfWaterAreThoseOfOne)
+{
+    expect_the_same("NonFinite", a_tank, by_criteria, [](auto& sim) {
+        for (std::uint32_t id : {150u, 15u, 21u})
+            of(sim, id,
+               [](auto& p, std::size_t i) { p.column(velocity)[0][i] = std::numeric_limits<double>::quiet_NaN(); });
+    });
+    for (double rho : {-1.0, 3001.0})
+        expect_the_same("EosDomain", a_tank, by_criteria, [rho](auto& sim) {
+            for (std::uint32_t id : {190u, 13u}) of(sim, id, [rho](auto& p, std::size_t i) { p.put(density, i, rho); });
+        });
+    expect_the_same("OutOfDomain", a_tank, short_steps, [](auto& sim) {
+        of(sim, 57, [](auto& p, std::size_t i) { p.put(velocity, i, {2000, 0}); });
+    });
+    expect_the_same("DtCollapse", a_tank, by_criteria, [](auto& sim) {
+        of(sim, 10, [](auto& p, std::size_t i) { p.put(velocity, i, {0, 5e4}); });
+    });
+}
+TEST(StopsOnRanks, OfGrainsAreThoseOfOne)
+{
+    expect_the_same("CoincidentParticles", a_crowd, by_criteria, [](auto& sim) {
+        sim.add({17.5 / 20, 6.5 / 20});
+        sim.add({2.5 / 20, 6.5 / 20});
+    });
+    expect_the_same("EnergyRunaway", a_crowd, {.steps = 100, .dt = 1e-3}, [](auto& sim) {
+        sim.add({0.05, 0.05}, {1, 0});
+        sim.add({0.08, 0.05}, {-1, 0});
+    });
+    expect_the_same("OverlapTooDeep", a_crowd, by_criteria, [](auto& sim) { // both on one rank
+        sim.add({0.05, 0.05});
+        sim.add({0.05 + 1.5 * r, 0.05});
+    });
+}
+
+} // namespace
