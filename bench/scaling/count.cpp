@@ -25,9 +25,11 @@ double cpu() // of the thread, and each virtual rank is one [s]
     return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
+constexpr int a_node[] = {12, 36}; // ranks
+
 struct Options {
     int ranks = 8, finer = 1, cell = 2;
-    double look = 4e-3;                    ///< time between two looks of the balance, at finer 1 [s]
+    double look = 2e-3;                        ///< time between two looks of the balance, at finer 1 [s]
     std::array<std::size_t, 2> values{{8, 5}}; ///< of a particle in a message, by species
     std::string state, table, shares;
 };
@@ -36,6 +38,8 @@ struct Row {
     std::int64_t particles = 0, cells = 0, pairs = 0, inner = 0; ///< inner: pairs of cells that wait for nobody
     std::int64_t by_number = 0, later = 0; ///< pairs with the first cuts; with these cuts when the next look is due
     std::array<std::int64_t, 2> out{}, in{}, out_particles{}, in_particles{};
+    std::array<std::int64_t, 2> far{};   ///< values sent to other nodes in an evaluation, of nodes of 12 and of 36 ranks
+    std::array<std::int64_t, 2> links{}; ///< messages that go there
     std::int64_t moved = 0, bytes = 0;  ///< particles that have left until the next look; memory of the halo
     double meet = 0, cut = 0, copy = 0; ///< CPU: a meeting; a search for cuts; packing and landing a round of values [s]
     Asked start, meeting, cutting;
@@ -187,7 +191,8 @@ private:
                 each_cell_around(cell, grid_, [&](Index<3> const& c) {
                     for (int q = 0; q < 2 - s; ++q) waits = waits || parts_.halo(q).bins().find(c) >= 0;
                 });
-                cost_.push_back({along_curve<3>(cell), n});
+                const std::int64_t here = bins_[std::size_t(s)].end(k) - bins_[std::size_t(s)].begin(k);
+                cost_.push_back({along_curve<3>(cell), n + std::int64_t(Balance{}.a_particle) * here});
                 all += n;
                 if (!waits) inner_ += n;
             }
@@ -238,6 +243,12 @@ private:
             row.out[k] = std::int64_t(h.out().size()), row.in[k] = std::int64_t(h.in().size());
             for (auto const& l : h.out()) row.out_particles[k] += std::int64_t(l.particle.size());
             for (auto const& l : h.in()) row.in_particles[k] += std::int64_t(l.particle.size());
+            for (auto const& l : h.out())
+                for (std::size_t n = 0; n < 2; ++n)
+                    if (l.rank / a_node[n] != ranks_.rank() / a_node[n]) {
+                        row.far[n] += std::int64_t(l.particle.size() * o_.values[k]);
+                        ++row.links[n];
+                    }
             row.bytes += std::int64_t(h.bytes());
         }
         row.cells = std::int64_t(cells.size());
@@ -277,11 +288,11 @@ void write(std::vector<Row> const& rows, std::string const& file)
 {
     std::ofstream to(file);
     to << "particles,cells,pairs,inner,by_number,later,out_0,out_1,in_0,in_1,out_particles_0,out_particles_1,in_particles_0,"
-          "in_particles_1,moved,bytes,meet,cut,copy,start_reductions,start_wide,start_scatters,start_parcels,start_sent,"
+          "in_particles_1,far_12,far_36,links_12,links_36,moved,bytes,meet,cut,copy,start_reductions,start_wide,start_scatters,start_parcels,start_sent,"
           "meet_scatters,meet_parcels,meet_sent,cut_reductions,cut_wide\n";
     for (auto const& r : rows) {
         to << r.particles << ',' << r.cells << ',' << r.pairs << ',' << r.inner << ',' << r.by_number << ',' << r.later;
-        for (auto const* a : {&r.out, &r.in, &r.out_particles, &r.in_particles}) to << ',' << (*a)[0] << ',' << (*a)[1];
+        for (auto const* a : {&r.out, &r.in, &r.out_particles, &r.in_particles, &r.far, &r.links}) to << ',' << (*a)[0] << ',' << (*a)[1];
         to << ',' << r.moved << ',' << r.bytes << ',' << r.meet << ',' << r.cut << ',' << r.copy;
         to << ',' << r.start.reductions << ',' << r.start.wide << ',' << r.start.scatters << ',' << r.start.parcels << ','
            << r.start.sent;
