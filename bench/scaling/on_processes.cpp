@@ -30,8 +30,29 @@ struct Found {
     double busy = 0, idle = 0, whole = 0;
     std::int64_t early = 0, tasks = 0, messages = 0, bytes = 0, moved = 0, cuts = 0, rebuilds = 0, pairs = 0;
     double imbalance = 1, markers = 0, dt = 0;
+    std::vector<double> first{0, 0}, values{0, 0}; ///< by species: particles sent with the first lists; values of each
     Asked asked;
 };
+
+/// How many particles of a species are sent with the lists of now, and how many values of each.
+template <class Sim>
+void sent_of_each(Sim& sim, RunOptions const& run, Found& f)
+{
+    auto const& s = sim.system();
+    std::vector<double> particles(2, 0);
+    s.each_species([&](auto q) {
+        for (auto const& l : s.parts().halo(q()).out()) particles[std::size_t(q())] += double(l.particle.size());
+    });
+    const auto before = s.ranks().on.asked();
+    const auto rebuilds = s.rebuilds();
+    sim.step(run);
+    if (s.rebuilds() != rebuilds) return; // the lists of then are gone
+    const auto asked = s.ranks().on.asked() - before;
+    f.first = particles;
+    for (std::size_t q = 0; q < 2; ++q)
+        if (particles[q] > 0)
+            f.values[q] = double(asked.bytes[q]) / double(asked.exchanges[q]) / particles[q] / sizeof(double);
+}
 
 template <class Make>
 Found measure(Make const& make, RunOptions const& run, Options const& o, Diary& diary, MpiRanks const& ranks)
@@ -40,7 +61,9 @@ Found measure(Make const& make, RunOptions const& run, Options const& o, Diary& 
     for (int repeat = 0; repeat < o.repeats; ++repeat) {
         auto sim = make();
         auto const& s = sim.system();
-        for (int k = 0; k < 10; ++k) sim.step(run); // balance has something to look at
+        sim.step(run);
+        sent_of_each(sim, run, f);
+        for (int k = 0; k < 8; ++k) sim.step(run); // balance has something to look at
         const auto before = s.parts().report();
         const auto asked = s.ranks().on.asked();
         const auto pairs = s.pairs_evaluated(), rebuilds = s.rebuilds();
@@ -91,7 +114,7 @@ double ping_pong(MpiRanks const& ranks, std::size_t bytes)
 {
     std::vector<std::byte> there(bytes), back(bytes);
     const int me = ranks.rank(), other = 1 - me;
-    double least = 1;
+    double least = me < 2 ? 1 : 0;
     for (int repeat = 0; repeat < 300 && me < 2; ++repeat) {
         const double start = Diary::now();
         const Packet out{other, there}, in{other, back};
@@ -134,6 +157,7 @@ void tell(Options const& o, Found const& f, MpiRanks const& ranks)
     const auto moved = total(f.moved), wide = total(f.asked.wide), reductions = total(f.asked.reductions);
     const auto reduced = total(f.asked.reduced), scatters = total(f.asked.scatters), parcels = total(f.asked.parcels);
     const auto sent = total(f.asked.sent), patches = total(f.asked.exchanges[2]), boxes = total(f.asked.bytes[2]);
+    const auto first = shared(ranks, f.first), values = shared(ranks, f.values);
     const double small = ranks.count() > 1 ? ping_pong(ranks, 8) : 0, large = ranks.count() > 1 ? ping_pong(ranks, 1 << 20) : 0;
     const double agreed = reduction(ranks);
     if (ranks.rank() != 0) return;
@@ -146,7 +170,7 @@ void tell(Options const& o, Found const& f, MpiRanks const& ranks)
               << ", \"moved\": " << moved << ", \"cuts\": " << f.cuts << ", \"imbalance\": " << f.imbalance
               << ", \"reductions\": " << reductions << ", \"reduced\": " << reduced << ", \"wide\": " << wide
               << ", \"scatters\": " << scatters << ", \"parcels\": " << parcels << ", \"sent\": " << sent
-              << ", \"patch_exchanges\": " << patches << ", \"patch_bytes\": " << boxes << ", \"latency\": " << small
+              << ", \"patch_exchanges\": " << patches << ", \"patch_bytes\": " << boxes << ", \"first\": " << list(first) << ", \"values\": " << list(values) << ", \"latency\": " << small
               << ", \"megabyte\": " << large << ", \"agreement\": " << agreed << "}\n";
 }
 
