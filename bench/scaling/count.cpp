@@ -40,6 +40,8 @@ struct Row {
     std::int64_t particles = 0, cells = 0, pairs = 0, inner = 0; ///< inner: pairs of cells that wait for nobody
     std::int64_t by_number = 0, later = 0; ///< pairs with the first cuts; with these cuts when the next look is due
     std::array<std::int64_t, 2> out{}, in{}, out_particles{}, in_particles{};
+    std::int64_t wall_cells = 0;
+    std::array<std::int64_t, 4> near{}; ///< pairs of cells that wait for no other node of 12, of 36: water, then walls
     std::array<std::int64_t, 2> first{}; ///< particles sent with the first cuts
     std::array<std::int64_t, 2> far{};   ///< values sent to other nodes in an evaluation, of nodes of 12 and of 36 ranks
     std::array<std::int64_t, 2> links{}; ///< messages that go there
@@ -80,7 +82,7 @@ public:
         row.meet = cpu() - begin;
         row.meeting = ranks_.asked() - before;
         row.pairs = count_pairs();
-        row.inner = inner_;
+        row.inner = inner_, row.near = near_;
         describe(row);
         exchange(row);
         const auto left = parts_.report().moved;
@@ -186,16 +188,24 @@ private:
     std::int64_t count_pairs()
     {
         std::int64_t all = 0;
-        inner_ = 0;
+        inner_ = 0, near_ = {};
         cost_.clear();
         for (int s = 0; s < 2; ++s)
             for (std::size_t k = 0; k < bins_[std::size_t(s)].cells(); ++k) {
                 const auto cell = bins_[std::size_t(s)].cell(k);
                 const auto n = pairs_of(s, 0, k) + (s == 0 ? pairs_of(0, 1, k) : 0);
                 bool waits = false;
+                std::array<bool, 2> waits_far{};
                 each_cell_around(cell, grid_, [&](Index<3> const& c) {
-                    for (int q = 0; q < 2 - s; ++q) waits = waits || parts_.halo(q).bins().find(c) >= 0;
+                    bool foreign = false;
+                    for (int q = 0; q < 2 - s; ++q) foreign = foreign || parts_.halo(q).bins().find(c) >= 0;
+                    if (!foreign) return;
+                    waits = true;
+                    for (std::size_t node = 0; node < 2; ++node)
+                        if (parts_.owner(c) / a_node[node] != ranks_.rank() / a_node[node]) waits_far[node] = true;
                 });
+                for (std::size_t node = 0; node < 2; ++node)
+                    if (!waits_far[node]) near_[node + 2 * std::size_t(s)] += n;
                 const std::int64_t here = bins_[std::size_t(s)].end(k) - bins_[std::size_t(s)].begin(k);
                 cost_.push_back({along_curve<3>(cell), n + std::int64_t(Balance{}.a_particle) * here});
                 all += n;
@@ -257,6 +267,7 @@ private:
             row.bytes += std::int64_t(h.bytes());
         }
         row.cells = std::int64_t(cells.size());
+        row.wall_cells = std::int64_t(bins_[1].cells());
     }
     /// Values of an evaluation, sent and landed for nothing: what the copying costs.
     void exchange(Row& row)
@@ -291,17 +302,20 @@ private:
     std::array<Binning<3>, 2> bins_;
     std::vector<CellCost> cost_;
     std::int64_t inner_ = 0;
+    std::array<std::int64_t, 4> near_{};
 };
 
 void write(std::vector<Row> const& rows, std::string const& file)
 {
     std::ofstream to(file);
     to << "particles,cells,pairs,inner,by_number,later,out_0,out_1,in_0,in_1,out_particles_0,out_particles_1,in_particles_0,"
-          "in_particles_1,first_0,first_1,far_12,far_36,links_12,links_36,moved,bytes,meet,cut,copy,start_reductions,start_wide,start_scatters,start_parcels,start_sent,"
+          "in_particles_1,first_0,first_1,far_12,far_36,links_12,links_36,near_12_0,near_36_0,near_12_1,near_36_1,wall_cells,moved,bytes,meet,cut,copy,start_reductions,start_wide,start_scatters,start_parcels,start_sent,"
           "meet_scatters,meet_parcels,meet_sent,cut_reductions,cut_wide\n";
     for (auto const& r : rows) {
         to << r.particles << ',' << r.cells << ',' << r.pairs << ',' << r.inner << ',' << r.by_number << ',' << r.later;
         for (auto const* a : {&r.out, &r.in, &r.out_particles, &r.in_particles, &r.first, &r.far, &r.links}) to << ',' << (*a)[0] << ',' << (*a)[1];
+        for (auto const n : r.near) to << ',' << n;
+        to << ',' << r.wall_cells;
         to << ',' << r.moved << ',' << r.bytes << ',' << r.meet << ',' << r.cut << ',' << r.copy;
         to << ',' << r.start.reductions << ',' << r.start.wide << ',' << r.start.scatters << ',' << r.start.parcels << ','
            << r.start.sent;

@@ -98,13 +98,19 @@ def of_a_rank(row, network, machine, ranks):
     sent = 8 * (8 * row["out_particles_0"] + 5 * row["out_particles_1"])
     share = {12: row["far_12"], 36: row["far_36"]}.get(network.node, 0)
     far = 8 * share if ranks > network.node else 0
-    wire = 0.0
+    exposed = 0.0
     if ranks > 1:
-        # All ranks of the node send at once through its card; two exchanges follow each other.
-        wire = 2 * network.latency + far * network.byte * min(network.node, ranks) + (sent - far) * machine.memory
-    hidden = machine.pair * row["inner"]
+        # All ranks of the node send at once through its card.
+        wire = lambda part: network.latency + (far * network.byte * min(network.node, ranks) + (sent - far) * machine.memory) * part
+        of_water = 8 * row["out_particles_0"] / max(1, 8 * row["out_particles_0"] + 5 * row["out_particles_1"])
+        water, walls = wire(of_water), wire(1 - of_water)
+        # Cells that wait for nobody of another node run while its messages fly; those of walls before walls are sent.
+        inner = lambda s: machine.pair * row.get(f"near_{network.node}_{s}", row["inner"] * (1 - s))
+        if row.get("wall_cells", 1) > 0:
+            exposed = n * (max(0.0, water - inner(1)) + max(0.0, walls - inner(0)))
+        else:
+            exposed = n * max(0.0, max(water, walls) - inner(0))
     over = n * (machine.copy * values + network.overhead * messages)
-    exposed = n * max(0.0, wire - hidden)
     near = row["out_particles_0"] + row["in_particles_0"] + row["out_particles_1"] + row["in_particles_1"]
     meeting = machine.rebuilds * (machine.meet * near + network.overhead * 2 * row["meet_parcels"])
     return work, over, exposed, meeting

@@ -188,20 +188,21 @@ public:
             }
         };
         const std::size_t some = 4 * std::size_t(backend.threads());
-        std::size_t done = 0;
-        while (true) {
+        std::size_t done = 0, left = cells;
+        while (left > 0) { // what no task here waits for may fly on
             const bool waiting = in_the_air();
             if (waiting) look(ready.empty() && done == inner.size());
             if (!ready.empty()) {
                 compute(s, ready, task, backend, is_missing());
+                left -= ready.size();
                 ready.clear();
             }
             else if (done < inner.size()) {
                 const std::size_t end = waiting ? std::min(inner.size(), done + some) : inner.size();
                 compute(s, std::span(inner).subspan(done, end - done), task, backend, is_missing());
+                left -= end - done;
                 done = end;
             }
-            else if (!waiting) break;
         }
     }
     /// Boxes of patches of those who share a border: of ours to them, of theirs to us, after `own` of ours.
