@@ -28,8 +28,8 @@ public:
     void put_into(S& dam) const
     {
         auto& p = dam.particles();
-        for (std::size_t i = 0; i < p.size(); ++i) { // not yet sorted: in the order of ids
-            double const* d = &data_[7 * i];
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            double const* d = &data_[7 * p.id()[i]];
             p.put(position, i, {d[0], d[1], d[2]});
             p.put(velocity, i, {d[3], d[4], d[5]});
             p.put(density, i, d[6]);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <set>
 
 namespace {
@@ -26,9 +27,11 @@ std::vector<Index<Dim>> in_order(std::int32_t from, std::int32_t edge)
               [](auto const& a, auto const& b) { return along_curve<Dim>(a) < along_curve<Dim>(b); });
     return cells;
 }
+/// \param shift  by how many cubes the first one lies off that which holds the origin
 template <int Dim>
-void expect_a_path(std::int32_t from, std::int32_t edge)
+void expect_a_path(std::int32_t shift, std::int32_t edge)
 {
+    const std::int32_t from = shift * edge - curve_origin % edge; // a corner of a cube of the curve
     const auto cells = in_order<Dim>(from, edge);
     for (std::size_t k = 1; k < cells.size(); ++k) {
         int steps = 0;
@@ -42,8 +45,9 @@ TEST(Curve, GoesFromCellToCellThroughACubeOfTwoToTheN)
     expect_a_path<1>(0, 64);
     expect_a_path<2>(0, 32);
     expect_a_path<3>(0, 16);
-    expect_a_path<2>(-16, 16);
-    expect_a_path<3>(-8, 8);
+    expect_a_path<2>(-1, 16);
+    expect_a_path<3>(-1, 8);
+    expect_a_path<2>(-(curve_origin / 16), 16);
 }
 TEST(Curve, KnowsCellsOnBothSidesOfTheOrigin)
 {
@@ -68,6 +72,10 @@ struct Many {
     }
     void each(auto&, auto const&) const {}
 };
+struct Turns : Many {
+    int* n;
+    void each(auto&, auto const&) const { ++*n; }
+};
 TEST(Shares, AreOfLikeCost)
 {
     std::vector<CellCost> cost;
@@ -84,6 +92,17 @@ TEST(Shares, AreOfLikeCost)
         for (auto const c : of) EXPECT_LE(std::abs(double(c) - double(total) / ranks), double(dearest)) << ranks;
         EXPECT_EQ(shares.owner_of(0), 0);
         EXPECT_EQ(shares.owner_of(~std::uint64_t(0)), ranks - 1);
+    }
+}
+// Walls have cells on both sides of the origin: their keys must not lie at both ends of the curve.
+TEST(Shares, OfADomainWithWallsAreFoundInFewTurns)
+{
+    for (int edge : {6, 14, 30}) { // cells of a walled cube: -1 to edge
+        std::vector<CellCost> cost;
+        for (auto const& cell : in_order<3>(-1, edge + 2)) cost.push_back({along_curve<3>(cell), 1});
+        int turns = 0;
+        (void)Shares<3>::of_like_cost(cost, Turns{{8}, &turns});
+        EXPECT_LE(turns, 3 * (std::bit_width(unsigned(edge + 1)) + 2)) << edge; // a cube of at most four times the edge
     }
 }
 TEST(Shares, AreStretchesOfTheCurve)

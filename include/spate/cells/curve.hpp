@@ -9,15 +9,19 @@
 
 namespace spate {
 
-/// Hilbert's curve through the cells about the origin (Skilling, "Programming the Hilbert curve", 2004: the transpose of
-/// the key, then its bits one after the other).
+/// What is added to the index of a cell: bits 0101..., so that the origin lies near no corner of a large cube of the curve.
+/// The cells of a domain about the origin, as walls make it, are one short stretch of keys, and cuts are found soon.
+inline constexpr std::int32_t curve_origin = 0x55555;
+
+/// Hilbert's curve through the cells (Skilling, "Programming the Hilbert curve", 2004: the transpose of the key, then its
+/// bits one after the other).
 template <int Dim>
 [[nodiscard]] constexpr std::uint64_t along_curve(Index<Dim> const& cell)
 {
-    constexpr int bits = 21; // of an index along an axis, about the origin, as in Binning
+    constexpr int bits = 21; // of an index along an axis, as in Binning
     constexpr auto n = std::size_t(Dim);
     std::uint32_t x[n] = {};
-    for (std::size_t c = 0; c < n; ++c) x[c] = std::uint32_t(cell[c] + (1 << (bits - 1))) & ((1u << bits) - 1);
+    for (std::size_t c = 0; c < n; ++c) x[c] = std::uint32_t(cell[c] + curve_origin) & ((1u << bits) - 1);
     for (std::uint32_t q = 1u << (bits - 1); q > 1; q >>= 1) { // undo excess work
         const std::uint32_t p = q - 1;
         for (std::size_t c = 0; c < n; ++c) {

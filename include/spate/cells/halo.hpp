@@ -4,6 +4,7 @@
 /// targets, once at each rebuild; then values of these particles flow by fixed lists, as often as wanted.
 #pragma once
 
+#include "spate/cells/cell_pairs.hpp"
 #include "spate/cells/neighbours.hpp"
 #include "spate/cells/shares.hpp"
 
@@ -93,26 +94,43 @@ private:
                                                                  Grid<Dim> const& grid, Shares<Dim> const& shares,
                                                                  int me)
     {
-        std::map<Index<Dim>, int> owner; // of cells seen so far
-        std::map<int, std::vector<Index<Dim>>> asked;
+        struct Around { // a cell near ours
+            int owner;
+            std::vector<char> asked; // of its patches
+        };
         const std::size_t per_cell = Skins<Dim>::patches_of_cell(grid);
+        std::map<Index<Dim>, Around> around;
+        std::vector<std::pair<Index<Dim>, Around*>> others; // the foreign ones around a cell
+        const auto same = [](Index<Dim> const& a, Index<Dim> const& b) {
+            bool all = true;
+            for (std::size_t c = 0; c < std::size_t(Dim); ++c) all = all && a[c] == b[c];
+            return all;
+        };
         for (auto const* at : targets)
             for (std::size_t k = 0; k < at->cells(); ++k) {
                 const Index<Dim> home = at->cell(k);
-                for (std::size_t p = 0; p < per_cell; ++p) {
+                others.clear();
+                each_cell_around(home, grid, [&](Index<Dim> const& cell) {
+                    const auto [it, is_new] = around.try_emplace(cell);
+                    if (is_new) it->second.owner = shares.owner(cell);
+                    if (it->second.owner != me) others.emplace_back(cell, &it->second);
+                });
+                for (std::size_t p = 0; p < per_cell && !others.empty(); ++p) {
                     if (Skins<Dim>::particles_of(*at, k * per_cell + p, grid).empty()) continue;
                     each_around<Dim>(patch_at(home, p, grid), grid, [&](Index<Dim> const& cell, std::size_t local) {
-                        if (cell == home) return;
-                        const auto [it, is_new] = owner.try_emplace(cell, 0);
-                        if (is_new) it->second = shares.owner(cell);
-                        if (it->second != me) asked[it->second].push_back(patch_at(cell, local, grid));
+                        for (auto const& [other, it] : others) {
+                            if (!same(other, cell)) continue;
+                            it->asked.resize(per_cell);
+                            it->asked[local] = 1;
+                            return;
+                        }
                     });
                 }
             }
-        for (auto& [rank, patches] : asked) {
-            std::sort(patches.begin(), patches.end());
-            patches.erase(std::unique(patches.begin(), patches.end()), patches.end());
-        }
+        std::map<int, std::vector<Index<Dim>>> asked;
+        for (auto const& [cell, it] : around)
+            for (std::size_t p = 0; p < it.asked.size(); ++p)
+                if (it.asked[p] != 0) asked[it.owner].push_back(patch_at(cell, p, grid));
         return asked;
     }
     /// What is in the patches that a rank asks for; empty if nothing is.

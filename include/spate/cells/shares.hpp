@@ -54,11 +54,16 @@ public:
         while (true) { // every rank sees the same numbers and leaves at the same turn
             bool open = false;
             for (std::size_t r = 1; r < cuts; ++r) {
+                cost[r] = 0;
+                if (low[r] >= high[r]) continue;
+                open = true;
                 const std::uint64_t middle = low[r] + (high[r] - low[r]) / 2;
-                const auto k = std::lower_bound(mine.begin(), mine.end(), middle,
-                                                [](auto const& a, std::uint64_t key) { return a.key < key; });
+                if (mine.empty() || middle <= mine.front().key) continue; // most cuts are far from here
+                const auto k = middle > mine.back().key
+                                   ? mine.end()
+                                   : std::lower_bound(mine.begin(), mine.end(), middle,
+                                                      [](auto const& a, std::uint64_t key) { return a.key < key; });
                 cost[r] = before[std::size_t(k - mine.begin())];
-                open = open || low[r] < high[r];
             }
             if (!open) break;
             ranks.each(cost, agree::Sum{});

@@ -188,20 +188,21 @@ public:
             }
         };
         const std::size_t some = 4 * std::size_t(backend.threads());
-        std::size_t done = 0;
-        while (true) {
+        std::size_t done = 0, left = cells;
+        while (left > 0) { // what no task here waits for may fly on
             const bool waiting = in_the_air();
             if (waiting) look(ready.empty() && done == inner.size());
             if (!ready.empty()) {
                 compute(s, ready, task, backend, is_missing());
+                left -= ready.size();
                 ready.clear();
             }
             else if (done < inner.size()) {
                 const std::size_t end = waiting ? std::min(inner.size(), done + some) : inner.size();
                 compute(s, std::span(inner).subspan(done, end - done), task, backend, is_missing());
+                left -= end - done;
                 done = end;
             }
-            else if (!waiting) break;
         }
     }
     /// Boxes of patches of those who share a border: of ours to them, of theirs to us, after `own` of ours.
@@ -237,19 +238,16 @@ public:
     /// more than the last move has cost.
     void cut_by_cost(std::vector<CellCost> cost, double tolerated)
     {
+        std::int64_t mine = 0;
+        for (auto const& c : cost) mine += c.cost;
+        const auto most = ranks_.all(mine, agree::Most{}), sum = ranks_.all(mine, agree::Sum{});
+        report_.imbalance = sum > 0 ? double(most) * ranks_.count() / double(sum) : 1;
+        if (report_.imbalance <= tolerated) return;
         auto shares = Shares<Dim>::of_like_cost(cost, ranks_);
-        std::vector<std::int64_t> before(std::size_t(ranks_.count()), 0), after = before;
-        for (auto const& c : cost) {
-            before[std::size_t(ranks_.rank())] += c.cost;
-            after[std::size_t(shares.owner_of(c.key))] += c.cost;
-        }
-        ranks_.each(before, agree::Sum{});
+        std::vector<std::int64_t> after(std::size_t(ranks_.count()), 0);
+        for (auto const& c : cost) after[std::size_t(shares.owner_of(c.key))] += c.cost;
         ranks_.each(after, agree::Sum{});
-        const auto most = [](auto const& v) { return double(*std::max_element(v.begin(), v.end())); };
-        double sum = 0;
-        for (auto const c : before) sum += double(c);
-        report_.imbalance = sum > 0 ? most(before) * ranks_.count() / sum : 1;
-        if (report_.imbalance <= tolerated || most(after) >= most(before)) return;
+        if (*std::max_element(after.begin(), after.end()) >= most) return;
         ++report_.cuts;
         shares_ = std::move(shares);
     }

@@ -7,7 +7,9 @@
 #include "spate/physics/decomposition.hpp"
 #include "spate/physics/system.hpp"
 
+#include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 namespace spate {
@@ -213,12 +215,21 @@ std::int64_t System<P, B, Workers, Precision>::pairs_of_cell(std::size_t k) cons
 template <class P, class B, class Workers, class Precision>
 void System<P, B, Workers, Precision>::cut_by_cost()
 {
+    auto const& balance = backend_.balance;
+    double a_pair = balance.pace; // here [ns], or a unit
+    if (!balance.by_pairs) {
+        std::int64_t ns = 0;
+        each_species([&](auto s) { ns = std::accumulate(parts_.cost(s).begin(), parts_.cost(s).end(), ns); });
+        a_pair = double(ranks().all(ns, agree::Sum{})) / std::max(1.0, double(pairs()));
+    }
     std::vector<CellCost> cost;
     each_species([&](auto s) {
         auto const& bins = species<s()>().bins;
-        for (std::size_t k = 0; k < bins.cells(); ++k)
-            cost.push_back({along_curve<dim>(bins.cell(k)),
-                            backend_.balance.by_pairs ? pairs_of_cell<s()>(k) : parts_.cost(s())[k]});
+        for (std::size_t k = 0; k < bins.cells(); ++k) {
+            const double tasks = balance.by_pairs ? a_pair * double(pairs_of_cell<s()>(k)) : double(parts_.cost(s())[k]);
+            const double rest = a_pair * balance.a_particle * double(bins.end(k) - bins.begin(k));
+            cost.push_back({along_curve<dim>(bins.cell(k)), std::llround(tasks + rest)});
+        }
     });
     parts_.cut_by_cost(std::move(cost), backend_.balance.tolerated);
 }

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Target cells are computed while messages are on their way; when messages come changes the order of tasks and no bit.
+#include "spate/backend/virtual_ranks.hpp"
+#include "spate/spate.hpp"
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace spate;
+
+/// Tasks done since values were sent for which messages are still awaited, by the order of events on a rank.
+struct Log {
+    std::int64_t tasks = 0;           ///< all
+    std::int64_t since = 0;           ///< since the last exchange began
+    std::int64_t before_the_last = 0; ///< between the beginning of an exchange and the last message of it
+    int missing = 0;                  ///< messages
+};
+/// When a message is there: as soon as it was sent; not before the rank has nothing left to do; before it does anything.
+enum class Comes { soon, late, at_once };
+
+template <class R>
+struct Logged {
+    static constexpr bool alone = false;
+    static constexpr const char* name = R::name;
+    R on;
+    Log* log;
+    Comes comes;
+
+    [[nodiscard]] int rank() const { return on.rank(); }
+    [[nodiscard]] int count() const { return on.count(); }
+    template <class T>
+    [[nodiscard]] T all(T mine, auto const& merge) const
+    {
+        return on.all(std::move(mine), merge);
+    }
+    void each(auto& values, auto const& merge) const { on.each(values, merge); }
+    [[nodiscard]] auto scatter(std::vector<Parcel> parcels) const { return on.scatter(std::move(parcels)); }
+
+    using Inner = std::remove_cvref_t<decltype(std::declval<R const&>().exchange({}, {}, 0))>;
+    struct Flown {
+        Inner inner;
+        Log* log;
+        Comes comes;
+        std::vector<int> known = {};
+
+        int named(int k)
+        {
+            if (k >= 0 && --log->missing == 0) log->before_the_last += log->since;
+            return k;
+        }
+        int taken()
+        {
+            if (known.empty()) return -1;
+            const int k = known.back();
+            known.pop_back();
+            return k;
+        }
+        int poll() { return comes == Comes::soon ? named(inner.poll()) : comes == Comes::late ? -1 : taken(); }
+        int next() { return comes == Comes::at_once ? taken() : named(inner.next()); }
+    };
+    [[nodiscard]] Flown exchange(std::span<Packet const> out, std::span<Packet const> in, int tag) const
+    {
+        Flown flown{on.exchange(out, in, tag), log, comes};
+        if (log->missing == 0) log->since = 0;
+        log->missing += int(in.size());
+        if (comes == Comes::at_once)
+            for (int k; (k = flown.named(flown.inner.next())) >= 0;) flown.known.push_back(k);
+        return flown;
+    }
+};
+struct LoggedTasks {
+    Log* log;
+    static constexpr const char* name = "logged";
+    static constexpr int threads() { return 1; }
+    static void check() {}
+    void for_each(std::size_t tasks, auto const& run) const
+    {
+        for (std::size_t k = 0; k < tasks; ++k) run(k), ++log->tasks, ++log->since;
+    }
+};
+
+struct Seen {
+    std::vector<std::int64_t> before, early; ///< by rank: tasks before the last message; as the engine counts them
+    std::uint64_t hash = 0;
+};
+Seen block(Comes comes)
+{
+    constexpr int ranks = 4;
+    Seen seen{std::vector<std::int64_t>(ranks, 0), std::vector<std::int64_t>(ranks, 0)};
+    VirtualRanks(ranks).run([&](auto rank) {
+        constexpr double dx = 0.02;
+        Log log;
+        auto water = wcsph(CubicSpline<2>{.h = 1.2 * dx}, Tait{.rho0 = 1000, .c0 = 30}, Continuity<2>{}, PressureForce<2>{},
+                           ArtificialViscosity{.alpha = 0.1});
+        Simulation sim(water, RungeKutta2{}, Open{},
+                       OnRank{Logged<decltype(rank)>{rank, &log, comes}, LoggedTasks{&log}, 1, Balance{.by_pairs = true}});
+        sim.fill(Box<2>{{}, {{1, 1}}}, dx, [&](auto& p, std::size_t i) {
+            const auto x = p.at(position, i);
+            p.put(velocity, i, {std::sin(6 * x[1]), std::sin(6 * x[0])});
+        });
+        sim.run({.steps = 30, .cfl = 0.2});
+        const auto r = std::size_t(rank.rank());
+        seen.before[r] = log.before_the_last;
+        seen.early[r] = sim.system().parts().report().early;
+        const auto hash = sim.state_hash();
+        if (r == 0) seen.hash = hash;
+    });
+    return seen;
+}
+TEST(Overlap, TargetCellsRunBeforeTheLastMessageHasCome)
+{
+    const Seen soon = block(Comes::soon), late = block(Comes::late), at_once = block(Comes::at_once);
+    for (std::size_t r = 0; r < 4; ++r) {
+        // However late messages are, a rank does all that needs none of them; more than it does where they come soon.
+        EXPECT_GT(late.early[r], 0) << r;
+        EXPECT_GE(late.early[r], soon.early[r]) << r;
+        EXPECT_GE(late.before[r], late.early[r]) << r;
+        EXPECT_EQ(at_once.early[r], 0) << r;
+        EXPECT_EQ(at_once.before[r], 0) << r;
+    }
+    EXPECT_GT(soon.early[0], 0); // the first to run: nothing can have come
+    EXPECT_EQ(soon.hash, late.hash);
+    EXPECT_EQ(soon.hash, at_once.hash);
+}
+
+} // namespace
