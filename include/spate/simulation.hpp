@@ -463,6 +463,7 @@ public:
         report_.warnings = std::move(warnings);
         stiffness_ = stiffness_of_all();
         if constexpr (Engine::M::moves) system_.boundary().move_to(time_);
+        least_radius_ = least_radius();
         prepared_ = true, stopped_ = false, resumed_ = true;
     }
     /// The bins of lists beyond the range, in a box.
@@ -844,6 +845,11 @@ private:
         else {
             double x = p.empty() ? 1 : p.at(field, 0);
             for (std::size_t i = 0; i < p.size(); ++i) x = std::min(x, p.at(field, i));
+            if constexpr (!Engine::alone) {
+                const double nobody = std::numeric_limits<double>::infinity();
+                const double least = system_.ranks().all(p.empty() ? nobody : x, agree::Least{});
+                return least < nobody ? least : x;
+            }
             return x;
         }
     }
@@ -962,7 +968,7 @@ private:
         auto const& p = system_.mobile();
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < p.size(); ++i) least = std::min(least, radius_of(p, i));
-        return least;
+        return system_.ranks().all(least, agree::Least{});
     }
     /// Contacts begin within what two grains close in by in one step: a tenth of a radius is told, a radius is a stop.
     void look_at_way(Extremes const& e)
@@ -971,7 +977,7 @@ private:
         if (step_ == 0) least_radius_ = least_radius();
         const double way = std::min(e.speed * dt_, system_.closing(e.unmoved(), dt_, 0)), r = least_radius_;
         if (way > 0.1 * r && !told_way_) warn_of_way(way);
-        if (way > r) stop_way(way);
+        if (way > r) together(system_.ranks(), [&] { stop_way(way); });
     }
     [[gnu::cold]] void warn_of_way(double way)
     {
@@ -980,12 +986,14 @@ private:
                                    " radii in a step at t = " + text(time_) +
                                    " s: contacts that begin deeper than a tenth are not resolved; take a smaller dt");
     }
-    [[noreturn, gnu::cold]] void stop_way(double way) const
+    [[gnu::cold]] void stop_way(double way) const
     {
         auto const& p = system_.mobile();
         const double most = way / dt_;
         const std::size_t i = detail::first_by_id(
             p, [&](std::size_t k) { return p.at(velocity, k).squaredNorm() >= most * most * (1 - 1e-12); });
+        if constexpr (!Engine::alone)
+            if (i == p.size()) return; // it is another rank's
         StopFacts f = i < p.size() ? detail::facts_of(p, i) : StopFacts{};
         f.step = step_, f.time = time_, f.quantity = "the way of a grain in one step [m]", f.value = way;
         f.limit = least_radius_;
