@@ -510,23 +510,24 @@ private:
     /// Ranks that run different scenes, or not to the same end, would wait for each other for ever.
     [[gnu::cold]] void agree_on(RunOptions const& o) const
     {
-        const double mine[] = {o.until,
-                               double(o.steps),
-                               o.cfl,
-                               o.dt,
-                               double(step_),
-                               double(system_.backend().cell),
-                               physics().interaction.range(),
-                               system_.neighbours().skin,
-                               system_.neighbours().bin_edge()};
-        constexpr const char* names[] = {"until", "steps", "cfl", "dt", "the step", "cell", "range", "skin", "bins"};
-        std::array<double, std::size(mine)> least, most;
-        std::copy(std::begin(mine), std::end(mine), least.begin()), most = least;
+        auto const& b = system_.backend();
+        std::vector<std::string> name{"until",    "steps", "cfl",           "dt",
+                                      "the step", "cell",  "Balance.every", "Balance.forced"};
+        std::vector<double> most{o.until,
+                                 double(o.steps),
+                                 o.cfl,
+                                 o.dt,
+                                 double(step_),
+                                 double(b.cell),
+                                 double(b.balance.every),
+                                 double(b.balance.forced)};
+        each_parameter([&](std::string_view what, double value) { name.emplace_back(what), most.push_back(value); });
+        std::vector<double> least = most;
         system_.ranks().each(least, agree::Least{});
         system_.ranks().each(most, agree::Most{});
         for (std::size_t k = 0; k < least.size(); ++k)
-            if (least[k] != most[k])
-                throw BadInput(names[k], text(least[k]) + " on one rank and " + text(most[k]) + " on another",
+            if (least[k] != most[k] && !(std::isnan(least[k]) && std::isnan(most[k])))
+                throw BadInput(name[k], text(least[k]) + " on one rank and " + text(most[k]) + " on another",
                                "the same on all ranks");
     }
     void before_step([[maybe_unused]] auto& output)

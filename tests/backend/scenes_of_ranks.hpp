@@ -74,14 +74,14 @@ scenes::Outcome hopper(Backend backend)
 
 /// A column of water falls over; its density is made smooth again every 20 steps.
 template <class Precision = Double, class Backend>
-auto column(Backend backend)
+auto column(Backend backend, double dx = 0.02, Neighbours neighbours = scenes::usual)
 {
-    constexpr double dx = 0.02, g = 9.81, height = 0.4;
+    constexpr double g = 9.81, height = 0.4;
     auto water = wcsph(CubicSpline<2>{.h = 1.2 * dx}, Tait{.rho0 = 1000, .c0 = 10 * std::sqrt(2 * g * height)},
                        Continuity<2>{}, DensityDiffusion{.delta = 0.1}, PressureForce<2>{},
                        ArtificialViscosity{.alpha = 0.05}, DensityReinit<Shepard>{.every = 20}, Gravity<2>{{0, -g}});
     Bce tank(Box<2>{{}, {{0.8, 0.6}}}, dx, Adami{}, open(top));
-    Simulation sim(water, RungeKutta2{}, tank, backend, Precision{});
+    Simulation sim(water, RungeKutta2{}, tank, backend, Precision{}, Watch{}, neighbours);
     sim.fill(Box<2>{{}, {{0.3, height}}}, dx, hydrostatic);
     return sim;
 }

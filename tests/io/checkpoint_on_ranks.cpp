@@ -60,7 +60,7 @@ protected:
 
 TEST_F(CheckpointOnRanks, OfADamBreakGoesOnWithTheSameBitsOnAnyOtherNumber)
 {
-    goes_on<going_on::Column>({{{1}, {3}},
+    goes_on<going_on::Column>({{{2}, {1}},
                                {{3}, {0}},
                                {{0}, {5, 1}},
                                {{5, 1, {.every = 1, .by_pairs = true}}, {2, 4}},

@@ -111,7 +111,7 @@ public:
         virtual void fill() = 0; ///< puts particles and numbers into the scene
         [[nodiscard]] virtual double skin_of(int s, std::int32_t const* place) const = 0;
         /// On many ranks: of each particle that fill() has put here.
-        [[nodiscard]] virtual std::vector<double> const& skins_of(int s) const = 0;
+        [[nodiscard]] virtual std::vector<double> skins_of(int s) const = 0;
         /// What is known of costs, on one of many ranks.
         virtual void each_cost(Costs& told) const = 0;
         [[nodiscard]] virtual Kept kept(int s, int q, std::size_t numbers) const = 0;

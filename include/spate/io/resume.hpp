@@ -104,9 +104,9 @@ public:
     {
         return checked_->skin_of(std::size_t(s), place);
     }
-    [[nodiscard]] std::vector<double> const& skins_of(int s) const override
+    [[gnu::cold]] [[nodiscard]] std::vector<double> skins_of(int s) const override
     {
-        return skins_.table<double>(skins_of_particles(s));
+        return scene_.count() > 1 ? skins_.table<double>(skins_of_particles(s)) : checked_->skins_of(s);
     }
     [[gnu::cold]] void each_cost(AnyScene::Costs& told) const override
     {
