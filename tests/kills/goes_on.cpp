@@ -28,6 +28,7 @@ int main(int argc, char** argv)
     io::Snapshots snapshots(folder, "tank", 1 / 64.0);
     io::Checkpoints checkpoints(folder, {.steps = 5}, history, snapshots);
     if (newest >= 0) checkpoints.restart(scene, folder / ("checkpoint_" + std::to_string(newest) + ".h5"));
+    if (MpiRanks().rank() == 0) std::puts("begun"), std::fflush(stdout);
     scene.run({.steps = std::atoll(argv[2]) - scene.steps(), .dt = 1 / 2048.0}, history, snapshots, checkpoints);
     const auto hash = scene.state_hash();
     if (MpiRanks().rank() == 0)

@@ -24,7 +24,11 @@ for ((k = 0; k < kills; ++k)); do
     ranks=$((RANDOM % 3 + 1))
     bash "$here/tools/mpirun.sh" "$ranks" "$executable" "$scratch/killed" "$steps" > "$scratch/log" 2>&1 &
     job=$!
-    sleep "$(awk -v r=$RANDOM 'BEGIN { print 0.3 + 2.2 * r / 32768 }')"
+    for ((waited = 0; k % 4 > 0 && waited < 600; ++waited)); do # else perhaps while it sets up
+        ! grep -q begun "$scratch/log" || break
+        sleep 0.1
+    done
+    sleep "$(awk -v r=$RANDOM 'BEGIN { print 1.2 * r / 32768 }')"
     mapfile -t processes < <(pgrep -P "$job" || true)
     victim=$job # mpirun itself, or one of its ranks
     if ((${#processes[@]} > 0 && RANDOM % 4 > 0)); then victim=${processes[RANDOM % ${#processes[@]}]}; fi

@@ -22,7 +22,7 @@ void expect_checkpoints_of_one(std::int64_t cut)
         EXPECT_THAT(going_on::differences(here.state, half.state), testing::IsEmpty());
         going_on::expect_the_same(going_on::run<Case>(Serial{}, Case::steps - cut, &here.state), whole, "on one");
     }
-    const End again = going_on::run<Case>(Mpi{Threads{2}, 1}, Case::steps - cut, &half.state);
+    const End again = going_on::run<Case>(Mpi{Serial{}, 1}, Case::steps - cut, &half.state);
     going_on::expect_the_same(again, whole, "after");
     const End on = going_on::run<Case>(Mpi{Serial{}, 3}, Case::steps - cut, &here.state);
     going_on::expect_the_same(on, whole, "before and after");

@@ -115,10 +115,10 @@ private:
             auto const& cost = state_.table<std::int64_t>(folder + "/cost");
             (void)state_.table<std::int32_t>(folder + "/place", dim_, cost.size());
             for (const auto c : cost)
-                if (c < 0 || c > std::int64_t{1} << 40) state_.refuse("with costs that nobody can have measured");
+                if (c < 0 || c > std::int64_t{1} << 39) state_.refuse("with costs that nobody can have measured");
             if (cost.size() > std::size_t{1} << 22) // their sum is an integer
                 for (const auto c : cost)
-                    if (c > (std::int64_t{1} << 62) / std::int64_t(cost.size())) state_.refuse("with costs too large");
+                    if (c > (std::int64_t{1} << 61) / std::int64_t(cost.size())) state_.refuse("with costs too large");
         }
     }
     [[gnu::cold]] void check_scene(State const& mine) const
