@@ -53,8 +53,8 @@ for ((k = 0; k < kills; ++k)); do
 done
 ((moved * 5 >= kills)) || { echo "only $moved of $kills runs came to a checkpoint" >&2; exit 1; }
 end=$((before + 20))
-killed=$(bash "$here/tools/mpirun.sh" 2 "$executable" "$scratch/killed" "$end")
-whole=$(bash "$here/tools/mpirun.sh" 1 "$executable" "$scratch/whole" "$end")
+killed=$(bash "$here/tools/mpirun.sh" 2 "$executable" "$scratch/killed" "$end" | tail -n 1)
+whole=$(bash "$here/tools/mpirun.sh" 1 "$executable" "$scratch/whole" "$end" | tail -n 1)
 echo "$kills kills, $moved times nearer to the end; $killed; in one piece $whole"
 [[ ${killed##* } == "${whole##* }" ]]
 cmp "$scratch/killed/history.csv" "$scratch/whole/history.csv"
