@@ -48,7 +48,7 @@ void expect_bits_of_one(int ranks, double dx, double skin, std::int64_t steps)
 TEST(BitsOnManyRanks, OfSixtyFourWhoseCellsMoveAtEveryStepAreThoseOfOne) { expect_bits_of_one(64, 0.02, 0.02, 110); }
 TEST(LongBitsOnManyRanks, OfAThousandAndAHundredThousandParticlesAreThoseOfOne)
 {
-    expect_bits_of_one(1000, 0.1 / 90, 0.003, 30);
+    expect_bits_of_one(1000, 0.1 / 90, 0.012, 30);
 }
 
 } // namespace
