@@ -25,7 +25,7 @@ int main(int argc, char** argv)
         // clang-format on
         const Box<2> box{{0, 0}, {L, L}};
         Bce walls(box, dx, scene::wall, no_slip, lid(top, U, 0.0));
-        Simulation flow(fluid, scene::Integrator{}, walls, scene::backend(o.threads, o.cell), scene::Precision{});
+        Simulation flow(fluid, scene::Integrator{}, walls, scene::backend(o), scene::Precision{});
         flow.fill(box, dx);
         example.run(flow, Probe{"centre", velocity, Vec<2, double>{L / 2, L / 2}}, Leaks{dx}, WallForce{});
     });

@@ -28,7 +28,7 @@ int main(int argc, char** argv)
                            Gravity<scene::dim>{scene::down(c.g)});  //           +g
         // clang-format on
         Bce tank(c.tank, dx, scene::wall, layers(3), open(c.open), obstacle(c.box));
-        Simulation dam(water, scene::Integrator{}, tank, scene::backend(o.threads, o.cell), scene::Precision{});
+        Simulation dam(water, scene::Integrator{}, tank, scene::backend(o), scene::Precision{});
         dam.fill(c.water, dx, hydrostatic);
         example.run(dam, c.front(), Leaks{dx}, WallForce{}, c.sensors, c.gauges);
     });

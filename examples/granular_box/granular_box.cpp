@@ -24,7 +24,7 @@ int main(int argc, char** argv)
             std::apply([&](auto... t) { return dem<Case::dim>({.mass = n.mass, .radius = n.radius}, t...); }, terms);
         const auto faces = std::apply([&](auto... t) { return Case::walls(t...); }, contact);
         const auto walls = std::apply([&](auto... f) { return Walls(*start.box, f...); }, faces);
-        Simulation box(grains, scene::Integrator{}, walls, scene::backend(o.threads, o.cell), scene::Precision{});
+        Simulation box(grains, scene::Integrator{}, walls, scene::backend(o), scene::Precision{});
         start.add_to(box);
         example.run(box);
     });

@@ -29,7 +29,7 @@ int main(int argc, char** argv)
         // clang-format on
         const Box<2> box{{0, 0}, {0.4 * L, L}};
         Bce plates(box, dx, scene::wall, periodic(x_axis), no_slip);
-        Simulation flow(fluid, scene::Integrator{}, plates, scene::backend(o.threads, o.cell), scene::Precision{});
+        Simulation flow(fluid, scene::Integrator{}, plates, scene::backend(o), scene::Precision{});
         flow.fill(box, dx);
         auto exact = [=](auto x, double t) { return Vec<2, double>{series(x[1] / L, nu * t / (L * L), V0), 0}; };
         example.run(flow, example::Difference{"error", V0, exact}, Leaks{dx}, WallForce{});

@@ -30,7 +30,7 @@ int main(int argc, char** argv)
             wet[c] = c == 0 ? 2 * H : H, tall[c] = wet[c], foot[c] = middle[c] = wet[c] / 2;
         tall[scene::dim - 1] = 1.2 * H, foot[scene::dim - 1] = 0;
         Bce tank(Box<scene::dim>{{}, tall}, dx, scene::wall, open(top));
-        Simulation still(water, scene::Integrator{}, tank, scene::backend(o.threads, o.cell), scene::Precision{});
+        Simulation still(water, scene::Integrator{}, tank, scene::backend(o), scene::Precision{});
         still.fill(Box<scene::dim>{{}, wet}, dx, settled);
         example.run(still, Leaks{dx}, WallForce{}, Probe{"p_floor", pressure, foot},
                     Probe{"p_middle", pressure, middle}, Gauge{"depth", foot, dx});

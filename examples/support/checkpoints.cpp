@@ -19,8 +19,9 @@ Recorder::~Recorder() = default;
 
 void Recorder::restart(spate::io::AnyScene& scene, std::filesystem::path const& file) { kept_->restart(scene, file); }
 void Recorder::begin(spate::io::AnyScene& scene) { kept_->begin(scene); }
-bool Recorder::due(std::int64_t step) const { return kept_->due(step); }
-void Recorder::step(spate::io::AnyScene& scene) { kept_->step(scene); }
+spate::io::Due Recorder::due(std::int64_t step) const { return kept_->due(step); }
+bool Recorder::by_the_clock() const { return kept_->by_the_clock(); }
+void Recorder::keep(spate::io::AnyScene& scene, spate::io::Due due) { kept_->keep(scene, due); }
 void Recorder::end(spate::io::AnyScene& scene) { kept_->end(scene); }
 std::filesystem::path const& Recorder::last() const { return kept_->last(); }
 std::filesystem::path const& Recorder::failing() const { return kept_->failing(); }

@@ -22,8 +22,9 @@ public:
 
     void restart(spate::io::AnyScene& scene, std::filesystem::path const& file);
     void begin(spate::io::AnyScene& scene);
-    [[nodiscard]] bool due(std::int64_t step) const;
-    void step(spate::io::AnyScene& scene);
+    [[nodiscard]] spate::io::Due due(std::int64_t step) const;
+    [[nodiscard]] bool by_the_clock() const;
+    void keep(spate::io::AnyScene& scene, spate::io::Due due);
     void end(spate::io::AnyScene& scene);
     [[nodiscard]] std::filesystem::path const& last() const;
     [[nodiscard]] std::filesystem::path const& failing() const;

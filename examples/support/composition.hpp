@@ -71,11 +71,14 @@ V viscosity(double alpha, double mu)
 
 /// The backend with the numbers of the command line.
 template <class B = Backend>
-B backend(int threads, int cell)
+B backend(auto const& options)
 {
+    const int threads = options.threads, cell = options.cell;
     if constexpr (requires(B b) { b.count; }) return {.count = threads, .cell = cell};
     else if constexpr (requires(B b) { b.local.count; }) // one thread a process, unless more are asked for
-        return {.local = {.count = threads == 0 ? 1 : threads}, .cell = cell};
+        return {.local = {.count = threads == 0 ? 1 : threads},
+                .cell = cell,
+                .balance = {.every = options.balance == "off" ? 0 : options.balance_every}};
     else {
         spate::require(threads == 0 || threads == 1, "threads", threads, "0 or 1 with this backend");
         return {.cell = cell};

@@ -23,6 +23,7 @@
 #include "support/interrupt.hpp"
 #include "support/passive.hpp"
 #include "support/pictures.hpp"
+#include "support/same_words.hpp"
 #include "support/snapshots.hpp"
 #include "support/summary.hpp"
 
@@ -35,9 +36,21 @@ public:
 
     int main(int argc, char** argv, std::function<void()> const& scene)
     {
-        if (many) wait_passively(argv); // it may start the program again: before MPI
-        speaks_ = spate::ranks_of(scene::Backend{}).rank() == 0;
-        return Frame::main(argc, argv, scene);
+        if constexpr (!many)
+            return Frame::main(
+                argc, argv, [] {}, scene);
+        else {
+            wait_passively(argv); // it may start the program again: before MPI
+            bool met = false;
+            auto meet = [&] {
+                const auto ranks = spate::ranks_of(scene::Backend{});
+                met = true, speaks_ = ranks.rank() == 0;
+                require_same_words(ranks, argc, argv);
+            };
+            const int code = Frame::main(argc, argv, meet, scene);
+            if (met) spate::ranks_of(scene::Backend{}).leave(code);
+            return code;
+        }
     }
     /// Runs a scene to its end with history (its columns the given measures), snapshots, pictures and summary.
     template <class Scene, class... Measure>
@@ -61,12 +74,7 @@ public:
         Checkpoints<decltype(history), Snapshots, Pictures, Summary> checkpoints(
             {directory, keep_every(options_.checkpoint_every)}, history, snapshots, pictures, summary);
         Talk talk{.quiet = options_.quiet, .speaks = speaks_};
-        if constexpr (!many) {
-            if (!options_.restart.empty()) checkpoints.restart(scene, options_.restart);
-        }
-        else
-            spate::require(options_.restart.empty() && options_.checkpoint_every == "0", "ranks", ranks.count(),
-                           "none with --restart and --checkpoint-every: checkpoints are of one process so far");
+        if (!options_.restart.empty()) checkpoints.restart(scene, options_.restart);
         how.steps = std::max(std::int64_t(0), options_.steps - scene.steps());
         about(scene);
         spate::io::Progress progress(options_.until, how.steps, spate::io::Progress::usual(options_.quiet));
@@ -77,9 +85,9 @@ public:
         talk.opening(summary);
         if (!options_.restart.empty()) talk.going_on(options_.restart, scene.steps(), scene.time());
         try {
-            if constexpr (many) scene.run(how, history, snapshots, pictures, talk, progress);
-            else scene.run(how, history, snapshots, pictures, talk, progress, checkpoints);
-            if (interrupt() != 0) interrupted(summary, scene.steps(), scene.time(), checkpoints.last());
+            scene.run(how, history, snapshots, pictures, talk, progress, checkpoints);
+            if (const int signal = ranks.all(interrupt(), spate::agree::Most{}); signal != 0)
+                interrupted(summary, signal, scene.steps(), scene.time(), checkpoints.last());
         }
         catch (spate::Stop const& e) {
             summary.stop = e.name(), summary.stop_message = e.what(), summary.stop_facts = e.facts();

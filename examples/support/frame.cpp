@@ -28,11 +28,12 @@ Frame::Frame(std::string name, std::string const& about, Options defaults)
 {}
 Frame::~Frame() = default;
 
-int Frame::main(int argc, char** argv, std::function<void()> const& scene)
+int Frame::main(int argc, char** argv, std::function<void()> const& meet, std::function<void()> const& scene)
 {
     wait_passively(argv);
     try {
-        line_.parse(argc, argv);
+        meet();
+        line_.parse(argc, argv, speaks_);
         catch_interrupts();
         scene();
         return code_;
@@ -70,18 +71,18 @@ void Frame::require_writable(std::filesystem::path const& directory)
     }
 }
 
-void Frame::interrupted(Summary& s, std::int64_t step, double time, std::filesystem::path const& checkpoint)
+void Frame::interrupted(Summary& s, int signal, std::int64_t step, double time, std::filesystem::path const& checkpoint)
 {
     s.stop = "Interrupted";
     s.stop_message = std::string("spate: interrupted by ") +
-                     (interrupt() == SIGINT    ? "SIGINT"
-                      : interrupt() == SIGUSR1 ? "SIGUSR1"
-                                               : "SIGTERM") +
+                     (signal == SIGINT    ? "SIGINT"
+                      : signal == SIGUSR1 ? "SIGUSR1"
+                                          : "SIGTERM") +
                      " at step " + std::to_string(step) + ", t = " + spate::text(time) + " s; " +
                      (checkpoint.empty() ? "the last state has been written"
                                          : "--restart " + checkpoint.string() + " goes on from there");
     s.stop_facts.step = step, s.stop_facts.time = time;
-    code_ = 128 + interrupt();
+    code_ = 128 + signal;
 }
 
 void Frame::ended(Summary const& s, Talk const& talk, std::filesystem::path const& directory,

@@ -29,12 +29,13 @@ public:
 
     /// 0 ok, 2 bad input, 3 a typed stop, 4 an output could not be written, 128 + signal: 130 SIGINT, 138 SIGUSR1,
     /// 143 SIGTERM, each with a checkpoint.
-    int main(int argc, char** argv, std::function<void()> const& scene);
+    /// \param meet  called first: ranks that share the scene find each other
+    int main(int argc, char** argv, std::function<void()> const& meet, std::function<void()> const& scene);
 
 protected:
     /// Before step 0 a directory that cannot be written in is bad input; later it is an OutputError.
     static void require_writable(std::filesystem::path const& directory);
-    void interrupted(Summary& s, std::int64_t step, double time, std::filesystem::path const& checkpoint);
+    void interrupted(Summary& s, int signal, std::int64_t step, double time, std::filesystem::path const& checkpoint);
     /// What is printed on standard output.
     struct Talk {
         bool quiet;

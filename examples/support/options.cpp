@@ -34,6 +34,10 @@ CommandLine::CommandLine(std::string const& name, std::string const& about, Opti
     with_unit(app.add_option("--threads", o.threads, "threads; 0: as many as there are"), "N");
     with_unit(app.add_option("--ranks", o.ranks, "processes, with --backend mpi; 0: as many as there are"), "N");
     with_unit(app.add_option("--cell", o.cell, "ranges along the edge of a cell, 1 to 32; 0: by dimension"), "M");
+    with_unit(app.add_option("--balance-every", o.balance_every,
+                             "with --backend mpi: rebuilds of neighbour lists between two looks at what ranks cost"),
+              "N");
+    choice("--balance", o.balance, {"on", "off"}, "with --backend mpi: whether cells move between ranks");
     app.add_option("--output", o.output, "directory of the results")->type_name("DIR")->default_str(o.output);
     with_unit(app.add_option("--every", o.every, "between two snapshots; 0: the last state only"), "[s]");
     with_unit(app.add_option("--history-every", o.history_every, "between two rows of history.csv; 0: each step"),
@@ -75,17 +79,17 @@ void CommandLine::text(std::string const& option, std::string& value, std::strin
 }
 void CommandLine::seed() { with_unit(parser_->app.add_option("--seed", options_.seed, "of the random numbers"), "N"); }
 
-void CommandLine::parse(int argc, char** argv)
+void CommandLine::parse(int argc, char** argv, bool speaks)
 {
     try {
         parser_->app.parse(argc, argv);
     }
     catch (CLI::CallForHelp const&) {
-        std::cout << parser_->app.help();
+        if (speaks) std::cout << parser_->app.help();
         throw Exit{0};
     }
     catch (CLI::ParseError const& e) {
-        std::cerr << "spate: " << e.what() << "; --help lists the options\n";
+        if (speaks) std::cerr << "spate: " << e.what() << "; --help lists the options\n";
         throw Exit{2};
     }
 }

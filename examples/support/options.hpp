@@ -25,6 +25,8 @@ struct Options {
     int threads = 0;                                               ///< 0: as many as there are
     int ranks = 0;                                                 ///< processes; 0: as many as mpirun has started
     int cell = 0;                                                  ///< ranges along a cell's edge; 0: by dimension
+    int balance_every = 4;                                         ///< rebuilds of lists between two looks; 0: off
+    std::string balance = "on";                                    ///< on or off
     std::uint64_t seed = 1;                                        ///< of random numbers
     std::string output = {};                                       ///< directory; empty: out/NAME
     std::string checkpoint_every = "0";                            ///< steps, or a time by the clock: 500, 600s, 2h
@@ -52,7 +54,8 @@ public:
     /// Only where a scene draws random numbers.
     void seed();
     /// Throws Exit{0} after --help and Exit{2}, after one sentence, for what cannot be understood.
-    void parse(int argc, char** argv);
+    /// \param speaks  else without the sentence: another rank says it
+    void parse(int argc, char** argv, bool speaks);
 
 private:
     struct Parser;

@@ -463,6 +463,7 @@ public:
         report_.warnings = std::move(warnings);
         stiffness_ = stiffness_of_all();
         if constexpr (Engine::M::moves) system_.boundary().move_to(time_);
+        least_radius_ = least_radius();
         prepared_ = true, stopped_ = false, resumed_ = true;
     }
     /// The bins of lists beyond the range, in a box.
@@ -509,23 +510,24 @@ private:
     /// Ranks that run different scenes, or not to the same end, would wait for each other for ever.
     [[gnu::cold]] void agree_on(RunOptions const& o) const
     {
-        const double mine[] = {o.until,
-                               double(o.steps),
-                               o.cfl,
-                               o.dt,
-                               double(step_),
-                               double(system_.backend().cell),
-                               physics().interaction.range(),
-                               system_.neighbours().skin,
-                               system_.neighbours().bin_edge()};
-        constexpr const char* names[] = {"until", "steps", "cfl", "dt", "the step", "cell", "range", "skin", "bins"};
-        std::array<double, std::size(mine)> least, most;
-        std::copy(std::begin(mine), std::end(mine), least.begin()), most = least;
+        auto const& b = system_.backend();
+        std::vector<std::string> name{"until",    "steps", "cfl",           "dt",
+                                      "the step", "cell",  "Balance.every", "Balance.forced"};
+        std::vector<double> most{o.until,
+                                 double(o.steps),
+                                 o.cfl,
+                                 o.dt,
+                                 double(step_),
+                                 double(b.cell),
+                                 double(b.balance.every),
+                                 double(b.balance.forced)};
+        each_parameter([&](std::string_view what, double value) { name.emplace_back(what), most.push_back(value); });
+        std::vector<double> least = most;
         system_.ranks().each(least, agree::Least{});
         system_.ranks().each(most, agree::Most{});
         for (std::size_t k = 0; k < least.size(); ++k)
-            if (least[k] != most[k])
-                throw BadInput(names[k], text(least[k]) + " on one rank and " + text(most[k]) + " on another",
+            if (least[k] != most[k] && !(std::isnan(least[k]) && std::isnan(most[k])))
+                throw BadInput(name[k], text(least[k]) + " on one rank and " + text(most[k]) + " on another",
                                "the same on all ranks");
     }
     void before_step([[maybe_unused]] auto& output)
@@ -847,6 +849,11 @@ private:
         else {
             double x = p.empty() ? 1 : p.at(field, 0);
             for (std::size_t i = 0; i < p.size(); ++i) x = std::min(x, p.at(field, i));
+            if constexpr (!Engine::alone) {
+                const double nobody = std::numeric_limits<double>::infinity();
+                const double least = system_.ranks().all(p.empty() ? nobody : x, agree::Least{});
+                return least < nobody ? least : x;
+            }
             return x;
         }
     }
@@ -979,7 +986,7 @@ private:
         auto const& p = system_.mobile();
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < p.size(); ++i) least = std::min(least, radius_of(p, i));
-        return least;
+        return system_.ranks().all(least, agree::Least{});
     }
     /// Contacts begin within what two grains close in by in one step: a tenth of a radius is told, a radius is a stop.
     void look_at_way(Extremes const& e)
@@ -988,7 +995,7 @@ private:
         if (step_ == 0) least_radius_ = least_radius();
         const double way = std::min(e.speed * dt_, system_.closing(e.unmoved(), dt_, 0)), r = least_radius_;
         if (way > 0.1 * r && !told_way_) warn_of_way(way);
-        if (way > r) stop_way(way);
+        if (way > r) together(system_.ranks(), [&] { stop_way(way); });
     }
     [[gnu::cold]] void warn_of_way(double way)
     {
@@ -997,12 +1004,14 @@ private:
                                    " radii in a step at t = " + text(time_) +
                                    " s: contacts that begin deeper than a tenth are not resolved; take a smaller dt");
     }
-    [[noreturn, gnu::cold]] void stop_way(double way) const
+    [[gnu::cold]] void stop_way(double way) const
     {
         auto const& p = system_.mobile();
         const double most = way / dt_;
         const std::size_t i = detail::first_by_id(
             p, [&](std::size_t k) { return p.at(velocity, k).squaredNorm() >= most * most * (1 - 1e-12); });
+        if constexpr (!Engine::alone)
+            if (i == p.size()) return; // it is another rank's
         StopFacts f = i < p.size() ? detail::facts_of(p, i) : StopFacts{};
         f.step = step_, f.time = time_, f.quantity = "the way of a grain in one step [m]", f.value = way;
         f.limit = least_radius_;

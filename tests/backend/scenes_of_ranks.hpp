@@ -39,24 +39,51 @@ scenes::Outcome crowd(Backend backend)
     return {box.state_hash(), box.system().rebuilds()};
 }
 
-/// Grains with friction are poured into a box with walls, pile up, and run out of one corner.
+/// Grains with friction in a box whose walls have it too.
 template <class Backend>
-scenes::Outcome hopper(Backend backend)
+auto hopper_box(Backend backend)
 {
     constexpr double r = 0.01;
     const LinearSpring spring{.k = 2e4};
-    Simulation box(
-        dem<2>({.mass = 0.1, .radius = r}, spring, Dashpot{.e = 0.5}, Friction{.mu = 0.5}, Gravity<2>{{0, -9.81}}),
-        Leapfrog{}, Walls(Box<2>{{0, 0}, {0.6, 0.8}}, contact(spring)), backend);
+    const Friction friction{.mu = 0.5};
+    Simulation box(dem<2>({.mass = 0.1, .radius = r}, spring, Dashpot{.e = 0.5}, friction, Gravity<2>{{0, -9.81}}),
+                   Leapfrog{}, Walls(Box<2>{{0, 0}, {0.6, 0.8}}, contact(spring, friction)), backend);
     for (int k = 0; k < 200; ++k)
         box.add({0.02 + 2.1 * r * (k % 20) + 1e-4 * (k / 20), 0.02 + 2.1 * r * (k / 20)}, {0.1, -0.5});
-    Pour pour(Box<2>{{0.1, 0.5}, {0.5, 0.7}}, {.rate = 2000, .velocity = {0, -2}, .apart = 2 * r, .every = 7});
-    Outlet outlet(Box<2>{{-0.1, -0.1}, {0.08, 0.06}}, {.every = 11});
+    return box;
+}
+inline auto hopper_pour()
+{
+    return Pour(Box<2>{{0.1, 0.5}, {0.5, 0.7}}, {.rate = 2000, .velocity = {0, -2}, .apart = 0.02, .every = 7});
+}
+inline auto hopper_outlet() { return Outlet(Box<2>{{-0.1, -0.1}, {0.08, 0.06}}, {.every = 11}); }
+
+/// They are poured in, pile up, and run out of one corner.
+template <class Backend>
+scenes::Outcome hopper(Backend backend)
+{
+    auto box = hopper_box(backend);
+    auto pour = hopper_pour();
+    auto outlet = hopper_outlet();
     box.run({.steps = 600, .dt = 2e-4}, pour, outlet);
     auto bits = std::bit_cast<std::uint64_t>(box.exchanged().energy());
     bits ^= std::uint64_t(pour.particles()) << 32 ^ std::uint64_t(outlet.particles()) << 48;
     return {box.state_hash() + 31 * bits,
             outlet.particles() > 5 && pour.particles() > 100 ? box.system().rebuilds() : 0};
+}
+
+/// A column of water falls over; its density is made smooth again every 20 steps.
+template <class Precision = Double, class Backend>
+auto column(Backend backend, double dx = 0.02, Neighbours neighbours = scenes::usual)
+{
+    constexpr double g = 9.81, height = 0.4;
+    auto water = wcsph(CubicSpline<2>{.h = 1.2 * dx}, Tait{.rho0 = 1000, .c0 = 10 * std::sqrt(2 * g * height)},
+                       Continuity<2>{}, DensityDiffusion{.delta = 0.1}, PressureForce<2>{},
+                       ArtificialViscosity{.alpha = 0.05}, DensityReinit<Shepard>{.every = 20}, Gravity<2>{{0, -g}});
+    Bce tank(Box<2>{{}, {{0.8, 0.6}}}, dx, Adami{}, open(top));
+    Simulation sim(water, RungeKutta2{}, tank, backend, Precision{}, Watch{}, neighbours);
+    sim.fill(Box<2>{{}, {{0.3, height}}}, dx, hydrostatic);
+    return sim;
 }
 
 template <class Backend>

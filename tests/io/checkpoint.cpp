@@ -2,6 +2,7 @@
 // A run that goes on from a checkpoint has the bits of one that was never interrupted, on whatever backend.
 #include "spate/io/checkpoint.hpp"
 
+#include "backend/scenes_of_ranks.hpp"
 #include "io/small_tank.hpp"
 
 namespace {
@@ -54,18 +55,10 @@ protected:
     }
 };
 
-/// A column of water falls over; its density is made smooth again every 20 steps.
 template <class Precision = Double, class Backend>
 auto dam(Backend backend)
 {
-    constexpr double dx = 0.02, g = 9.81, height = 0.4;
-    auto water = wcsph(CubicSpline<2>{.h = 1.2 * dx}, Tait{.rho0 = 1000, .c0 = 10 * std::sqrt(2 * g * height)},
-                       Continuity<2>{}, DensityDiffusion{.delta = 0.1}, PressureForce<2>{},
-                       ArtificialViscosity{.alpha = 0.05}, DensityReinit<Shepard>{.every = 20}, Gravity<2>{{0, -g}});
-    Bce tank(Box<2>{{}, {{0.8, 0.6}}}, dx, Adami{}, open(top));
-    Simulation sim(water, RungeKutta2{}, tank, backend, Precision{});
-    sim.fill(Box<2>{{}, {{0.3, height}}}, dx, hydrostatic);
-    return sim;
+    return ranked::column<Precision>(backend);
 }
 
 TEST_F(CheckpointTest, OfADamBreakGoesOnWithTheSameBitsOnAnyBackend)

@@ -16,12 +16,13 @@ namespace small_tank {
 
 inline constexpr double dx = 0.05;
 
-inline auto scene()
+template <class Backend = spate::Serial>
+auto scene(Backend backend = {})
 {
     using namespace spate;
     auto water = wcsph(CubicSpline<2>{.h = 1.2 * dx}, Tait{.rho0 = 1000, .c0 = 30}, Continuity<2>{}, PressureForce<2>{},
                        ArtificialViscosity{.alpha = 0.1}, Gravity<2>{{0, -9.81}});
-    Simulation tank(water, RungeKutta2{}, Bce(Box<2>{{0, 0}, {1, 1}}, dx, Adami{}, open(top)), Serial{});
+    Simulation tank(water, RungeKutta2{}, Bce(Box<2>{{0, 0}, {1, 1}}, dx, Adami{}, open(top)), backend);
     tank.fill(Box<2>{{0, 0}, {0.5, 0.5}}, dx, hydrostatic);
     return tank;
 }

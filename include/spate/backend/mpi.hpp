@@ -10,7 +10,10 @@
 #include "spate/physics/migration.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <cstdio>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <mpi.h>
@@ -119,13 +122,30 @@ public:
     {
         return {out, in, tag};
     }
+    /// The end of a program, with its exit code. One that ends with an error while others go on would keep them waiting for
+    /// ever: if they do not come here within so many seconds it ends them too, and says so.
+    [[gnu::cold]] void leave(int code, double patience = 10) const
+    {
+        MPI_Request all = MPI_REQUEST_NULL;
+        MPI_Ibarrier(session().leaving, &all);
+        const auto start = std::chrono::steady_clock::now();
+        for (int here = 0;; std::this_thread::sleep_for(std::chrono::milliseconds(1))) {
+            MPI_Test(&all, &here, MPI_STATUS_IGNORE);
+            if (here != 0) return;
+            const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - start;
+            if (code == 0 || waited.count() < patience) continue;
+            std::fprintf(stderr, "spate: rank %d has ended alone, with exit code %d; the other ranks are ended\n",
+                         rank_, code);
+            MPI_Abort(session().world, code);
+        }
+    }
 
 private:
     static constexpr int scattered_tag = 1000;
 
     /// MPI for the time of the program, on a communicator of our own.
     struct Session {
-        MPI_Comm world = MPI_COMM_NULL;
+        MPI_Comm world = MPI_COMM_NULL, leaving = MPI_COMM_NULL;
         int rank = 0, count = 1;
         std::uint64_t rounds = 0;
         bool ours = false;
@@ -144,6 +164,7 @@ private:
                                "at least MPI_THREAD_FUNNELED, " + std::to_string(MPI_THREAD_FUNNELED) +
                                    ": ask for it in MPI_Init_thread");
             MPI_Comm_dup(MPI_COMM_WORLD, &world);
+            MPI_Comm_dup(MPI_COMM_WORLD, &leaving);
             MPI_Comm_rank(world, &rank);
             MPI_Comm_size(world, &count);
         }

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,6 +14,8 @@
 #include <typeinfo>
 #include <variant>
 #include <vector>
+
+#include "spate/core/message.hpp"
 
 namespace spate::io {
 
@@ -92,7 +95,14 @@ public:
     protected:
         ~Pairs() = default;
     };
-    /// Asked by a scene that takes up the state of another time.
+    /// Told of what each patch that holds particles has cost of late, where anybody has looked.
+    struct Costs {
+        virtual void patch(int s, std::int32_t const* place, std::int64_t cost) = 0;
+
+    protected:
+        ~Costs() = default;
+    };
+    /// Asked by a scene that takes up the state of another time, on many ranks for a part of it.
     struct Past {
         struct Kept {
             std::vector<std::uint32_t> const& ids;
@@ -100,24 +110,39 @@ public:
         };
         virtual void fill() = 0; ///< puts particles and numbers into the scene
         [[nodiscard]] virtual double skin_of(int s, std::int32_t const* place) const = 0;
+        /// On many ranks: of each particle that fill() has put here.
+        [[nodiscard]] virtual std::vector<double> skins_of(int s) const = 0;
+        /// What is known of costs, on one of many ranks.
+        virtual void each_cost(Costs& told) const = 0;
         [[nodiscard]] virtual Kept kept(int s, int q, std::size_t numbers) const = 0;
 
     protected:
         ~Past() = default;
     };
 
+    // The ranks that share the scene: what io asks of them, by which it can ask for gathered().
+    static constexpr bool alone = false; ///< nobody knows before the run
+    [[nodiscard]] virtual int rank() const = 0;
+    [[nodiscard]] virtual int count() const = 0;
+    [[nodiscard]] virtual std::vector<Parcel> scatter(std::vector<Parcel> parcels) const = 0;
+    [[nodiscard]] virtual bool any(bool mine) const = 0;
+    virtual void together(std::function<void()> const& f) const = 0; ///< as spate::together
+
+    // Called by all ranks: prepare, parts, interrupted, particles, resume. All else is about what is here.
     [[nodiscard]] virtual bool filled() const = 0;
     [[nodiscard]] virtual bool interrupted() const = 0;
     virtual void prepare() = 0;
     [[nodiscard]] virtual Facts facts() const = 0;
     virtual void parts(Parts& told) const = 0;
     virtual void numbers(Notes const& notes) = 0;
-    virtual void notes(Notes& notes) = 0; ///< of the outputs
+    virtual void notes(Notes& notes) = 0;                         ///< of the outputs
+    [[nodiscard]] virtual std::size_t particles(int s) const = 0; ///< on all ranks
     [[nodiscard]] virtual std::vector<std::uint32_t> const& ids(int s) const = 0;
     [[nodiscard]] virtual std::uint32_t next_id(int s) const = 0;
     virtual void set_ids(int s, std::vector<std::uint32_t> const& ids, std::uint32_t next) = 0;
     virtual void columns(int s, Columns& told) = 0;
     virtual void skins(Patches& told) const = 0;
+    virtual void costs(Costs& told) const = 0;
     virtual void pairs(Pairs& told) const = 0;
     /// The places of the patches that hold n particles at x; false if one is beyond the index of a grid.
     virtual bool places(Corners const& grid, double const* x, std::size_t n, std::int32_t* place) const = 0;

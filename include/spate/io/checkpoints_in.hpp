@@ -8,7 +8,9 @@
 #include <tuple>
 #include <utility>
 
+#include "spate/core/ranks.hpp"
 #include "spate/io/any_scene.hpp"
+#include "spate/io/keep.hpp"
 #include "spate/io/this_scene.hpp"
 
 namespace spate::io {
@@ -34,9 +36,11 @@ public:
     }
     void step(auto& scene)
     {
-        if (!recorder_.due(scene.steps())) return;
+        Due due = recorder_.due(scene.steps());
+        if (recorder_.by_the_clock()) due = party_of(scene).all(due, agree::Most{}); // clocks differ
+        if (due == Due::nothing) return;
         auto any = of(scene);
-        recorder_.step(any);
+        recorder_.keep(any, due);
     }
     [[gnu::cold]] void end(auto& scene)
     {

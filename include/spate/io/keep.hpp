@@ -9,6 +9,9 @@
 
 namespace spate::io {
 
+/// What becomes of the state after a step.
+enum class Due { nothing, remember, write };
+
 /// When states are kept. With neither steps nor wall only a run that is interrupted, or that a Stop ends, leaves one.
 struct Keep {
     std::int64_t steps = 0;       ///< between two checkpoints; 0: not by steps

@@ -9,13 +9,16 @@
 #include <cmath>
 #include <cstdint>
 #include <deque>
+#include <exception>
 #include <filesystem>
 #include <string>
 #include <system_error>
 #include <variant>
 #include <vector>
 
+#include "spate/core/together.hpp"
 #include "spate/io/any_scene.hpp"
+#include "spate/io/detail/rows_of_ranks.hpp"
 #include "spate/io/keep.hpp"
 #include "spate/io/output_error.hpp"
 #include "spate/io/resume.hpp"
@@ -36,8 +39,8 @@ public:
     /// The scene goes on from a file. Throws BadInput, and nothing has changed.
     [[gnu::cold]] void restart(AnyScene& scene, std::filesystem::path const& file)
     {
-        const State state = file_.read(file);
-        resume(scene, state);
+        State state;
+        detail::resume_from(scene, [&]() -> State const& { return state = file_.read(file); });
         std::error_code error;
         if (std::filesystem::equivalent(file.parent_path().empty() ? "." : file.parent_path(), directory_, error))
             written_.push_back(file);
@@ -45,18 +48,21 @@ public:
     }
     [[gnu::cold]] void begin(AnyScene& scene)
     {
-        remove_unfinished();
+        if (scene.rank() == 0) remove_unfinished();
         wall_ = Clock::now();
         if (keep_.recorder > 0 && at_ != scene.facts().step) remember(scene);
     }
-    /// Whether step() is due.
-    [[nodiscard]] bool due(std::int64_t step) const
+    /// After a step, as this rank sees it.
+    [[nodiscard]] Due due(std::int64_t step) const
     {
-        return by_steps(step) || by_clock() || (keep_.recorder > 0 && step - at_ >= keep_.recorder);
+        if (by_steps(step) || by_clock()) return Due::write;
+        return keep_.recorder > 0 && step - at_ >= keep_.recorder ? Due::remember : Due::nothing;
     }
-    [[gnu::cold]] void step(AnyScene& scene)
+    /// Whether ranks may differ in what is due.
+    [[nodiscard]] bool by_the_clock() const { return keep_.wall > 0; }
+    [[gnu::cold]] void keep(AnyScene& scene, Due due)
     {
-        if (by_steps(scene.facts().step) || by_clock()) write(scene);
+        if (due == Due::write) write(scene);
         else remember(scene);
     }
     [[gnu::cold]] void end(AnyScene& scene)
@@ -77,7 +83,7 @@ private:
     using Clock = std::chrono::steady_clock;
     struct Remembered {
         std::int64_t step;
-        State state;
+        State part; ///< what of the state is here
     };
 
     [[nodiscard]] bool by_steps(std::int64_t step) const { return keep_.steps > 0 && step % keep_.steps == 0; }
@@ -108,27 +114,36 @@ private:
     [[gnu::cold]] void write(AnyScene& scene)
     {
         if (cut(scene)) return;
-        const State now = state_of(scene);
-        if (!good(now)) return;
-        write(now, scene.facts().step);
+        State now = detail::part_of(scene);
+        if (scene.any(!good(now))) return;
+        write(scene, std::move(now), scene.facts().step);
         remembered_.clear();
     }
-    [[gnu::cold]] void write(State const& state, std::int64_t step)
+    [[gnu::cold]] void write(AnyScene& scene, State part, std::int64_t step)
     {
         const auto file = path("checkpoint", step);
-        file_.write(file, state);
+        write(scene, std::move(part), file);
         std::error_code error;
         written_.erase(std::remove(written_.begin(), written_.end(), file), written_.end());
         written_.push_back(file);
-        for (; written_.size() > 2; written_.pop_front()) std::filesystem::remove(written_.front(), error);
+        for (; written_.size() > 2; written_.pop_front())
+            if (scene.rank() == 0) std::filesystem::remove(written_.front(), error);
         last_ = file, at_ = step, wall_ = Clock::now();
+    }
+    /// Parts of all ranks become one file.
+    [[gnu::cold]] void write(AnyScene& scene, State part, std::filesystem::path const& file)
+    {
+        const State state = detail::whole(scene, std::move(part));
+        scene.together([&] {
+            if (scene.rank() == 0) file_.write(file, state);
+        });
     }
     [[gnu::cold]] void remember(AnyScene& scene)
     {
         at_ = scene.facts().step;
         if (cut(scene)) return;
-        State now = state_of(scene);
-        if (!good(now)) return;
+        State now = detail::part_of(scene);
+        if (scene.any(!good(now))) return;
         if (remembered_.size() == 2) remembered_.pop_front();
         remembered_.push_back({at_, std::move(now)});
     }
@@ -136,16 +151,23 @@ private:
     [[gnu::cold]] void record(AnyScene& scene)
     {
         try {
-            for (auto const& [step, good] : remembered_) write(good, step);
+            for (auto& [step, good] : remembered_) write(scene, std::move(good), step);
             remembered_.clear();
             if (!last_.empty()) saved_ = "the last good state is " + last_.string();
             failing_ = path("failing", scene.facts().step);
-            file_.write(failing_, state_of(scene));
+            write(scene, detail::part_of(scene), failing_);
             saved_ += (saved_.empty() ? "" : ", ") + ("the failing one " + failing_.string());
         }
         catch (OutputError const& e) {
-            saved_ += (saved_.empty() ? "" : "; ") + ("not all states could be saved: " + std::string(e.what()));
+            not_saved(e);
         }
+        catch (OtherRankFailed const& e) {
+            not_saved(e);
+        }
+    }
+    [[gnu::cold]] void not_saved(std::exception const& e)
+    {
+        saved_ += (saved_.empty() ? "" : "; ") + ("not all states could be saved: " + std::string(e.what()));
     }
     /// What a run that was killed while it wrote has left.
     [[gnu::cold]] void remove_unfinished() const

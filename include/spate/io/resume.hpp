@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <tuple>
@@ -15,6 +17,7 @@
 
 #include "spate/io/any_scene.hpp"
 #include "spate/io/detail/checked_state.hpp"
+#include "spate/io/detail/rows_of_ranks.hpp"
 #include "spate/io/state.hpp"
 #include "spate/io/state_of.hpp"
 #include "spate/io/this_scene.hpp"
@@ -84,11 +87,12 @@ inline std::vector<std::string> lines(std::string const& text)
     return all;
 }
 
-/// A state that was found whole.
+/// A state that was found whole, or a part of it.
 class PastOf final : public AnyScene::Past {
 public:
-    PastOf(AnyScene& scene, State const& state, Facts const& facts, Checked const& checked)
-        : scene_(scene), state_(state), facts_(facts), checked_(checked)
+    /// \param skins  of the particles of a part    \param checked  the whole, null where it is elsewhere
+    PastOf(AnyScene& scene, State const& state, Facts const& facts, State const& skins, Checked const* checked)
+        : scene_(scene), state_(state), facts_(facts), skins_(skins), checked_(checked)
     {}
     [[gnu::cold]] void fill() override
     {
@@ -98,7 +102,15 @@ public:
     }
     [[nodiscard]] double skin_of(int s, std::int32_t const* place) const override
     {
-        return checked_.skin_of(std::size_t(s), place);
+        return checked_->skin_of(std::size_t(s), place);
+    }
+    [[gnu::cold]] [[nodiscard]] std::vector<double> skins_of(int s) const override
+    {
+        return scene_.count() > 1 ? skins_.table<double>(skins_of_particles(s)) : checked_->skins_of(s);
+    }
+    [[gnu::cold]] void each_cost(AnyScene::Costs& told) const override
+    {
+        if (checked_) checked_->each_cost(told);
     }
     [[nodiscard]] Kept kept(int s, int q, std::size_t numbers) const override
     {
@@ -112,24 +124,48 @@ private:
     AnyScene& scene_;
     State const& state_;
     Facts const& facts_;
-    Checked const& checked_;
+    State const& skins_;
+    Checked const* checked_;
 };
+
+/// Read and checked on rank 0, then each rank takes up its part. \param read  gives the state; rank 0 calls it
+[[gnu::cold]] inline void resume_from(AnyScene& scene, std::function<State const&()> const& read)
+{
+    const Facts facts = scene.facts();
+    const State due = description(scene);
+    const std::size_t markers = facts.species == 2 ? scene.particles(1) : 0;
+    static const State nothing;
+    State const* state = &nothing;
+    State skins;
+    std::optional<Checked> checked;
+    scene.together([&] {
+        if (scene.rank() != 0) return;
+        state = &read();
+        checked.emplace(scene, *state, facts, due, markers);
+        Read look(*state, Read::How::look);
+        scene.notes(look);
+        for (int s = 0; s < facts.species && checked->local() && scene.count() > 1; ++s)
+            skins.put(skins_of_particles(s), checked->skins_of(s));
+    });
+    State part;
+    if (scene.count() > 1) part = dealt(scene, *state), skins = dealt(scene, skins);
+    State const& mine = scene.count() > 1 ? part : *state;
+    PastOf past(scene, mine, facts, skins, checked ? &*checked : nullptr);
+    const bool local = scene.count() > 1 ? !skins.tables.empty() : checked->local();
+    scene.resume(grid_box(mine, facts), mine.text("run/criterion"), lines(mine.text("run/warnings")), local, past);
+    Read take(mine, Read::How::take);
+    scene.notes(take);
+}
 
 } // namespace detail
 
 [[gnu::cold]] inline void resume(AnyScene& scene, State const& state)
 {
-    const Facts facts = scene.facts();
-    const detail::Checked checked(scene, state, facts);
-    detail::Read look(state, detail::Read::How::look), take(state, detail::Read::How::take);
-    scene.notes(look);
-    detail::PastOf past(scene, state, facts, checked);
-    scene.resume(checked.grid_box(), state.text("run/criterion"), detail::lines(state.text("run/warnings")),
-                 checked.local(), past);
-    scene.notes(take);
+    detail::resume_from(scene, [&]() -> State const& { return state; });
 }
-/// The scene goes on from a state, and so do the outputs that it remembers. The scene has to be put together and filled as
-/// it was at its start. Throws BadInput before anything changes if the state is not whole, or of another scene.
+/// The scene goes on from a state, and so do the outputs that it remembers; of many ranks, which all call it, from that of
+/// rank 0. The scene has to be put together and filled as it was at its start. Throws BadInput before anything changes if
+/// the state is not whole, or of another scene.
 template <class Scene, class... Output>
 void resume(Scene& scene, State const& state, Output&... outputs)
 {

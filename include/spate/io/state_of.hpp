@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
 /// \brief From a scene to the state that a run needs to go on: global arrays by id or by place, without a trace of who held
-///        what. Not the way back (io/resume.hpp), not the file (io/checkpoint_file.hpp).
+///        what; on many ranks each has its part. Not the way back (io/resume.hpp), not the file (io/checkpoint_file.hpp).
 #pragma once
 
 #include <algorithm>
@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "spate/io/any_scene.hpp"
+#include "spate/io/detail/rows_of_ranks.hpp"
 #include "spate/io/state.hpp"
 #include "spate/io/this_scene.hpp"
 
@@ -159,6 +160,28 @@ template <class T>
     }
 }
 
+/// What the patches have cost of late: measured, so that it differs from run to run; empty where nobody looks.
+[[gnu::cold]] inline void put_costs(State& state, AnyScene const& scene, Facts const& facts)
+{
+    struct : AnyScene::Costs {
+        std::size_t dim = 0;
+        std::vector<std::vector<std::int32_t>*> place;
+        std::vector<std::vector<std::int64_t>*> cost;
+        void patch(int s, std::int32_t const* at, std::int64_t of) override
+        {
+            place[std::size_t(s)]->insert(place[std::size_t(s)]->end(), at, at + dim);
+            cost[std::size_t(s)]->push_back(of);
+        }
+    } costs;
+    costs.dim = std::size_t(facts.dim);
+    for (int s = 0; s < facts.species; ++s) {
+        const std::string folder = "balance_" + std::to_string(s);
+        costs.place.push_back(&state.fresh<std::int32_t>(folder + "/place", costs.dim));
+        costs.cost.push_back(&state.fresh<std::int64_t>(folder + "/cost", 1));
+    }
+    scene.costs(costs);
+}
+
 template <class T>
 [[gnu::cold]] void put_pairs(State& state, AnyScene const& scene)
 {
@@ -184,14 +207,13 @@ template <class T>
     scene.pairs(put);
 }
 
-} // namespace detail
-
-[[gnu::cold]] inline State state_of(AnyScene& scene)
+/// The part of the state that is here, its rows in order.
+[[gnu::cold]] inline State part_of(AnyScene& scene)
 {
     scene.prepare();
     const Facts facts = scene.facts();
-    State state = detail::description(scene);
-    scene.numbers(detail::Written(state, "run/"));
+    State state = description(scene);
+    scene.numbers(Written(state, "run/"));
     state.put_one("run/stopped", std::int64_t(facts.stopped));
     state.texts["run/criterion"] = facts.criterion;
     std::string warnings;
@@ -201,16 +223,20 @@ template <class T>
     corners.insert(corners.end(), facts.grid.hi.begin(), facts.grid.hi.begin() + facts.dim);
     state.put("run/grid_box", std::move(corners), std::size_t(facts.dim));
     for (int s = 0; s < facts.species; ++s)
-        facts.single ? detail::put_particles<float>(state, s, scene, facts.stopped)
-                     : detail::put_particles<double>(state, s, scene, facts.stopped);
-    if (!facts.stopped) detail::put_skins(state, scene, facts);
-    facts.single ? detail::put_pairs<float>(state, scene) : detail::put_pairs<double>(state, scene);
-    detail::Written notes(state);
+        facts.single ? put_particles<float>(state, s, scene, facts.stopped)
+                     : put_particles<double>(state, s, scene, facts.stopped);
+    if (!facts.stopped) put_skins(state, scene, facts), put_costs(state, scene, facts);
+    facts.single ? put_pairs<float>(state, scene) : put_pairs<double>(state, scene);
+    Written notes(state);
     scene.notes(notes);
     return state;
 }
-/// All that the scene needs to go on, and what outputs have to remember. Of a scene that a Stop has ended: all fields, to
-/// look at.
+
+} // namespace detail
+
+[[gnu::cold]] inline State state_of(AnyScene& scene) { return detail::whole(scene, detail::part_of(scene)); }
+/// All that the scene needs to go on, and what outputs have to remember; of many ranks, which all call it, on rank 0. Of a
+/// scene that a Stop has ended: all fields, to look at.
 template <class Scene, class... Output>
 State state_of(Scene& scene, Output&... outputs)
 {

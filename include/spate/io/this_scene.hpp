@@ -19,6 +19,7 @@
 
 #include "spate/core/box.hpp"
 #include "spate/core/fields.hpp"
+#include "spate/core/together.hpp"
 #include "spate/io/any_scene.hpp"
 
 namespace spate::io {
@@ -40,11 +41,21 @@ class ThisScene final : public AnyScene {
 public:
     ThisScene(Scene& scene, std::tuple<Output&...> outputs) : scene_(scene), outputs_(outputs) {}
 
+    [[gnu::cold]] int rank() const override { return ranks().rank(); }
+    [[gnu::cold]] int count() const override { return ranks().count(); }
+    [[gnu::cold]] std::vector<Parcel> scatter(std::vector<Parcel> parcels) const override
+    {
+        return ranks().scatter(std::move(parcels));
+    }
+    [[gnu::cold]] bool any(bool mine) const override { return ranks().all(mine, agree::Or{}); }
+    [[gnu::cold]] void together(std::function<void()> const& f) const override { spate::together(ranks(), f); }
+
     [[gnu::cold]] bool filled() const override { return !scene_.physics().open(); }
     [[gnu::cold]] bool interrupted() const override { return scene_.interrupted(); }
     [[gnu::cold]] void prepare() override
     {
         if (!scene_.prepared()) scene_.prepare();
+        scene_.system().count_on_one();
     }
     [[gnu::cold]] Facts facts() const override
     {
@@ -82,6 +93,14 @@ public:
         };
         std::apply([&](auto&... output) { (one(output), ...); }, outputs_);
     }
+    [[gnu::cold]] std::size_t particles(int s) const override
+    {
+        std::size_t n = 0;
+        scene_.system().each_species([&](auto k) {
+            if (k() == s) n = scene_.system().template total_of<k()>();
+        });
+        return n;
+    }
     [[gnu::cold]] std::vector<std::uint32_t> const& ids(int s) const override
     {
         std::vector<std::uint32_t> const* ids = nullptr;
@@ -102,9 +121,7 @@ public:
     {
         scene_.system().each_species([&](auto k) {
             if (k() != s) return;
-            auto& p = scene_.system().template species<k()>().particles;
-            p.resize(ids.size());
-            p.set_ids(ids, next);
+            scene_.system().template put_ids<k()>(ids, next);
         });
     }
     [[gnu::cold]] void columns(int s, Columns& told) override
@@ -123,6 +140,12 @@ public:
     [[gnu::cold]] void skins(Patches& told) const override
     {
         scene_.system().each_skin([&](int s, Place const& place, double skin) { told.patch(s, place.data(), skin); });
+    }
+    [[gnu::cold]] void costs([[maybe_unused]] Costs& told) const override
+    {
+        if constexpr (!Engine::alone)
+            scene_.system().each_cost(
+                [&](int s, Place const& place, std::int64_t cost) { told.patch(s, place.data(), cost); });
     }
     [[gnu::cold]] void pairs(Pairs& told) const override
     {
@@ -148,15 +171,36 @@ public:
                               bool local, Past& past) override
     {
         auto lists = [&](Engine& system) {
-            system.restore_lists(
-                local, [&](int s, Place const& place) { return past.skin_of(s, place.data()); },
-                [&]<class Pair>(int s, int q, std::type_identity<Pair>) { return pairs_of<Pair>(past, s, q); });
+            auto kept = [&]<class Pair>(int s, int q, std::type_identity<Pair>) { return pairs_of<Pair>(past, s, q); };
+            if constexpr (Engine::alone)
+                system.restore_lists(
+                    local, [&](int s, Place const& place) { return past.skin_of(s, place.data()); }, kept);
+            else {
+                typename Engine::OfParticles skin;
+                for (std::size_t s = 0; local && s < skin.size(); ++s) skin[s] = past.skins_of(int(s));
+                system.restore_lists(local, std::move(skin), costs_of(past), kept);
+            }
         };
         scene_.resume(
             box(grid), criterion, std::move(warnings), [&] { past.fill(); }, lists);
     }
 
 private:
+    [[nodiscard]] decltype(auto) ranks() const { return scene_.system().ranks(); }
+    [[gnu::cold]] static std::vector<std::pair<Place, std::int64_t>> costs_of(Past const& past)
+    {
+        struct : Costs {
+            std::vector<std::pair<Place, std::int64_t>> all;
+            void patch(int, std::int32_t const* place, std::int64_t cost) override
+            {
+                Place at;
+                std::copy_n(place, dim, at.begin());
+                all.emplace_back(at, cost);
+            }
+        } costs;
+        past.each_cost(costs);
+        return std::move(costs.all);
+    }
     void each(auto const& f) const
     {
         scene_.system().each_species([&](auto k) { f(scene_.system().template species<k()>().particles, k); });

@@ -19,24 +19,67 @@ void System<P, B, Workers, Precision>::redistribute(Shares<dim> shares)
 {
     set_aside();
     parts_.use(std::move(shares));
-    std::array<std::vector<double>, std::size_t(species_count)> skin, of_patch;
+    count_moved_cells();
+    OfParticles skin;
     each_species([&](auto s) { skin[std::size_t(s())] = skins_by_particle<s()>(); });
+    build_again(!skins_.uniform(), std::move(skin));
+}
+
+template <class P, class B, class Workers, class Precision>
+void System<P, B, Workers, Precision>::build_again(bool local, OfParticles skin)
+{
+    OfParticles of_patch;
     go_home(true, &skin);
     each_species([&](auto s) {
         auto& x = species<s()>();
         const auto patch = patches<s()>();
         x.bins.sort(x.particles, grid_, built<s()>);
-        if (skins_.uniform()) return;
+        if (!local) return;
         auto& mine = of_patch[std::size_t(s())];
         mine.assign(x.bins.cells() * Skins<dim>::patches_of_cell(grid_), neighbours_.closed_in());
         for (std::size_t i = 0; i < patch.size(); ++i)
             mine[number_of_patch(patch[i], x.bins, grid_)] = skin[std::size_t(s())][i];
     });
-    if (!skins_.uniform()) skins_.use(neighbours_.closed_in(), std::move(of_patch), ranks());
+    skins_.use(neighbours_.closed_in());
+    if (local) skins_.use(neighbours_.closed_in(), std::move(of_patch), ranks());
     sorted_markers_ = true;
     meet_others();
     if (neighbours_.local && any_pairs) look_around();
     build_lists();
+}
+
+template <class P, class B, class Workers, class Precision>
+void System<P, B, Workers, Precision>::restore_lists(bool local, OfParticles skin,
+                                                     std::vector<std::pair<Index<dim>, std::int64_t>> const& cost,
+                                                     auto const& pairs_of)
+{
+    make_room();
+    each_memory([&]<class Aside>(auto s, auto q, Aside& aside, auto&) {
+        aside.put(pairs_of(s, q, std::type_identity<typename Aside::Pair>{}));
+    });
+    if (ranks().rank() != 0) pairs_evaluated_ = 0; // those of then rank 0 has
+    std::vector<CellCost> of_cell;
+    for (auto const& [place, c] : cost) of_cell.push_back({along_curve<dim>(cell_of_patch(place, grid_)), c});
+    if (ranks().all(!of_cell.empty(), agree::Or{})) parts_.use(Shares<dim>::of_like_cost(std::move(of_cell), ranks()));
+    else cut_by_number();
+    if (have_lists_) build_again(local, std::move(skin));
+    else go_home(false);
+}
+
+template <class P, class B, class Workers, class Precision>
+void System<P, B, Workers, Precision>::each_cost(auto const& f) const
+{
+    if (!have_lists_ || !any_pairs) return;
+    const std::size_t per_cell = Skins<dim>::patches_of_cell(grid_);
+    each_species([&](auto s) {
+        auto const& bins = species<s()>().bins;
+        for (std::size_t k = 0; k < bins.cells(); ++k) {
+            const auto cost = this->template cost_of_cell<s()>(k), n = std::int64_t(bins.end(k) - bins.begin(k));
+            for (std::size_t p = k * per_cell; p < (k + 1) * per_cell; ++p)
+                if (const auto here = Skins<dim>::particles_of(bins, p, grid_); !here.empty())
+                    f(s(), Skins<dim>::place(bins, p, grid_), cost * (here.last - here.first) / n);
+        }
+    });
 }
 
 template <class P, class B, class Workers, class Precision>
@@ -73,10 +116,9 @@ auto System<P, B, Workers, Precision>::cell_at(auto const& p, auto field, std::s
 }
 
 template <class P, class B, class Workers, class Precision>
-void System<P, B, Workers, Precision>::go_home(bool as_built,
-                                               std::array<std::vector<double>, std::size_t(species_count)>* extra)
+void System<P, B, Workers, Precision>::go_home(bool as_built, OfParticles* extra)
 {
-    std::array<std::vector<double>, std::size_t(species_count)> nothing;
+    OfParticles nothing;
     if (!extra) extra = &nothing;
     std::map<int, Message> to;
     std::array<std::map<std::uint32_t, int>, std::size_t(species_count)> away;
@@ -213,6 +255,13 @@ std::int64_t System<P, B, Workers, Precision>::pairs_of_cell(std::size_t k) cons
 }
 
 template <class P, class B, class Workers, class Precision>
+template <int s>
+std::int64_t System<P, B, Workers, Precision>::cost_of_cell(std::size_t k) const
+{
+    return backend_.balance.by_pairs ? pairs_of_cell<s>(k) : parts_.cost(s)[k];
+}
+
+template <class P, class B, class Workers, class Precision>
 void System<P, B, Workers, Precision>::cut_by_cost()
 {
     auto const& balance = backend_.balance;
@@ -226,12 +275,25 @@ void System<P, B, Workers, Precision>::cut_by_cost()
     each_species([&](auto s) {
         auto const& bins = species<s()>().bins;
         for (std::size_t k = 0; k < bins.cells(); ++k) {
-            const double tasks = balance.by_pairs ? a_pair * double(pairs_of_cell<s()>(k)) : double(parts_.cost(s())[k]);
+            const double tasks = (balance.by_pairs ? a_pair : 1) * double(this->template cost_of_cell<s()>(k));
             const double rest = a_pair * balance.a_particle * double(bins.end(k) - bins.begin(k));
             cost.push_back({along_curve<dim>(bins.cell(k)), std::llround(tasks + rest)});
         }
     });
     parts_.cut_by_cost(std::move(cost), backend_.balance.tolerated);
+    count_moved_cells();
+}
+
+template <class P, class B, class Workers, class Precision>
+void System<P, B, Workers, Precision>::count_moved_cells()
+{
+    std::set<Index<dim>> moved;
+    each_species([&](auto s) {
+        auto const& bins = species<s()>().bins;
+        for (std::size_t k = 0; k < bins.cells(); ++k)
+            if (parts_.owner(bins.cell(k)) != ranks().rank()) moved.insert(bins.cell(k));
+    });
+    parts_.report().moved_cells += std::int64_t(moved.size());
 }
 
 template <class P, class B, class Workers, class Precision>

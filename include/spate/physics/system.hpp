@@ -287,23 +287,41 @@ public:
                     f(s, Skins<dim>::place(bins, p, grid_), skins.of(p));
         });
     }
+    /// On many ranks f(s, place of a patch, its share of what its cell has cost since lists were built), for each that holds
+    /// particles.
+    void each_cost(auto const& f) const;
     /// f(s, q, pairs) with what is kept of the pairs s <- q, sorted by ids.
     void each_kept(auto const& f) const
     {
         each_species([&](auto s) {
             each_species([&](auto q) {
-                constexpr int values = kept_values<s(), q()>;
-                if constexpr (values > 0) {
-                    PairMemory<T, values> now;
-                    if (have_lists_)
-                        now.take(lists<s(), q()>(), memory_[std::size_t(s() * species_count + q())],
-                                 species<s()>().particles, species<s()>().bins, species<q()>().particles,
-                                 species<q()>().bins, width<PairV>, backend_, foreign<q()>());
-                    f(s, q, now.pairs());
-                }
+                if constexpr (kept_values < s(), q() >> 0) f(s, q, this->template kept_of_pairs<s(), q()>());
             });
         });
     }
+    /// What ranks have counted apart rank 0 goes on counting for all.
+    void count_on_one()
+    {
+        if constexpr (!alone) {
+            const auto all = pairs_evaluated();
+            pairs_evaluated_ = ranks().rank() == 0 ? all : 0;
+        }
+    }
+    /// Particles of these ids take the place of all that are here. \param next  the id of the next new one
+    template <int s>
+    void put_ids(std::vector<std::uint32_t> const& ids, std::uint32_t next)
+    {
+        auto& p = species<s>().particles;
+        p.resize(ids.size());
+        p.set_ids(ids, next);
+        if constexpr (!alone) parts_.own(s, ids.size());
+    }
+    using OfParticles = std::array<std::vector<double>, std::size_t(species_count)>;
+    /// On many ranks: the lists that a checkpoint was written with, of a part of the particles on each; in migration.hpp.
+    /// \param skin  of each particle here, where skins differ by place
+    /// \param cost  what is known of patches by their place, on one rank: shares are cut by it
+    void restore_lists(bool local, OfParticles skin, std::vector<std::pair<Index<dim>, std::int64_t>> const& cost,
+                       auto const& pairs_of);
     /// Builds the lists that a checkpoint was written with: from where particles were when those were built, with the
     /// skins of then. Lists built from the positions of now would have their neighbours in another order.
     /// \param local  skins differ by place: skin_of(s, place)
@@ -1434,7 +1452,7 @@ private:
     Index<dim> cell_at(auto const& p, auto field, std::size_t i) const;
     /// Sends each particle, and what is kept of its pairs, to the owner of its cell.
     /// \param as_built  by where it was when lists were built    \param extra  of each particle, goes along
-    void go_home(bool as_built, std::array<std::vector<double>, std::size_t(species_count)>* extra = nullptr);
+    void go_home(bool as_built, OfParticles* extra = nullptr);
     /// Who is near across the borders, now that particles are sorted.
     void meet_others();
     /// The patch in which each particle was when lists were built.
@@ -1446,8 +1464,16 @@ private:
     void cut_by_number();
     template <int s>
     [[nodiscard]] std::int64_t pairs_of_cell(std::size_t k) const;
+    /// Since lists were built, in the unit of the balance.
+    template <int s>
+    [[nodiscard]] std::int64_t cost_of_cell(std::size_t k) const;
+    /// Particles that know where they were when lists were built go home by it, and the lists are built again with skins
+    /// of then.
+    void build_again(bool local, OfParticles skin);
     /// Like shares of what cells have cost since lists were built, if that pays.
     void cut_by_cost();
+    /// Cells that were here when lists were built, and are another rank's by new cuts.
+    void count_moved_cells();
     /// The skin at each particle, empty where all are the same.
     template <int s>
     std::vector<double> skins_by_particle() const;

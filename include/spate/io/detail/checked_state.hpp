@@ -21,32 +21,43 @@
 
 namespace spate::io::detail {
 
+[[gnu::cold]] inline AnyScene::Corners grid_box(State const& state, Facts const& facts)
+{
+    auto const& corners = state.table<double>("run/grid_box", std::size_t(facts.dim), 2);
+    AnyScene::Corners box;
+    std::copy_n(corners.begin(), facts.dim, box.lo.begin());
+    std::copy_n(corners.begin() + facts.dim, facts.dim, box.hi.begin());
+    return box;
+}
+
 /// Checks that a state is whole and of this scene; the scene stays as it is.
 class Checked {
     using Place = std::vector<std::int32_t>;
 
 public:
-    [[gnu::cold]] Checked(AnyScene& scene, State const& state, Facts const& facts)
-        : scene_(scene), state_(state), facts_(facts), dim_(std::size_t(facts.dim))
+    /// \param due  description of the scene    \param markers  of its walls, on all ranks
+    [[gnu::cold]] Checked(AnyScene& scene, State const& state, Facts const& facts, State const& due,
+                          std::size_t markers)
+        : scene_(scene), state_(state), facts_(facts), dim_(std::size_t(facts.dim)), markers_(markers)
     {
         if (!scene.filled()) state.refuse("asked of a scene without particles: fill it as at its start");
-        check_scene();
+        check_scene(due);
         if (state.one<std::int64_t>("run/stopped") != 0)
             state.refuse("a state at which a run stopped: it is there to be looked at, not to go on from");
         check_numbers();
         if (facts.single) check_tables<float>();
         else check_tables<double>();
     }
-    [[nodiscard]] AnyScene::Corners grid_box() const
-    {
-        auto const& corners = state_.table<double>("run/grid_box", dim_, 2);
-        AnyScene::Corners box;
-        std::copy_n(corners.begin(), dim_, box.lo.begin());
-        std::copy_n(corners.begin() + facts_.dim, dim_, box.hi.begin());
-        return box;
-    }
     /// Whether skins differ by place.
     [[nodiscard]] bool local() const { return local_; }
+    /// The skin at each particle of a species, which were checked to have one.
+    [[gnu::cold]] [[nodiscard]] std::vector<double> skins_of(int s) const
+    {
+        const auto place = facts_.single ? places_of<float>(s) : places_of<double>(s);
+        std::vector<double> skins;
+        for (std::size_t k = 0; k < place.size(); k += dim_) skins.push_back(skin_of(std::size_t(s), &place[k]));
+        return skins;
+    }
     /// Of a patch, which was checked to be there.
     [[nodiscard]] double skin_of(std::size_t s, std::int32_t const* place) const
     {
@@ -56,6 +67,16 @@ public:
             (before(place, place_of(s, middle)) ? last : first) = middle;
         }
         return skin(s)[first];
+    }
+
+    [[gnu::cold]] void each_cost(AnyScene::Costs& told) const
+    {
+        for (int s = 0; s < facts_.species; ++s) {
+            const std::string folder = "balance_" + std::to_string(s);
+            if (!state_.has(folder + "/cost")) continue;
+            auto const* place = state_.table<std::int32_t>(folder + "/place", dim_).data();
+            for (const auto c : state_.table<std::int64_t>(folder + "/cost")) told.patch(s, place, c), place += dim_;
+        }
     }
 
 private:
@@ -83,10 +104,25 @@ private:
         if (state_.one<std::int64_t>("run/have_lists") != 0)
             for (int s = 0; s < facts_.species; ++s) check_skins<T>(s);
         check_pairs<T>();
+        check_costs();
     }
-    [[gnu::cold]] void check_scene() const
+    /// Costs may be absent, from a file of older times; shares are cut by what is there.
+    [[gnu::cold]] void check_costs() const
     {
-        const State mine = description(scene_);
+        for (int s = 0; s < facts_.species; ++s) {
+            const std::string folder = "balance_" + std::to_string(s);
+            if (!state_.has(folder + "/cost")) continue;
+            auto const& cost = state_.table<std::int64_t>(folder + "/cost");
+            (void)state_.table<std::int32_t>(folder + "/place", dim_, cost.size());
+            for (const auto c : cost)
+                if (c < 0 || c > std::int64_t{1} << 39) state_.refuse("with costs that nobody can have measured");
+            if (cost.size() > std::size_t{1} << 22) // their sum is an integer
+                for (const auto c : cost)
+                    if (c > (std::int64_t{1} << 61) / std::int64_t(cost.size())) state_.refuse("with costs too large");
+        }
+    }
+    [[gnu::cold]] void check_scene(State const& mine) const
+    {
         auto differs = [&](std::string const& what, std::string const& there, std::string const& here) {
             state_.refuse("of another scene: its " + what.substr(what.find('/') + 1) + " is " + there +
                           ", here it is " + here);
@@ -116,7 +152,7 @@ private:
         if (!(state_.one<double>("run/time") >= 0 && state_.one<double>("run/dt") >= 0))
             state_.refuse("with a time below 0");
         (void)state_.text("run/criterion"), (void)state_.text("run/warnings");
-        const auto box = grid_box();
+        const auto box = grid_box(state_, facts_);
         bool fine = true;
         for (std::size_t c = 0; c < dim_; ++c) {
             fine = fine && std::isfinite(box.lo[c]) && std::isfinite(box.hi[c]) && box.lo[c] <= box.hi[c];
@@ -156,7 +192,7 @@ private:
         if (next < (id.empty() ? 0 : std::int64_t(id.back()) + 1) || next > std::numeric_limits<std::uint32_t>::max())
             state_.refuse("with a wrong next id");
         if (id.size() > std::size_t(std::numeric_limits<std::int32_t>::max())) state_.refuse("with too many particles");
-        if (s == 1 && id.size() != scene_.ids(s).size())
+        if (s == 1 && id.size() != markers_)
             state_.refuse("of another scene: its walls have another number of markers");
         struct Look : AnyScene::Columns {
             State const& state;
@@ -177,13 +213,7 @@ private:
     template <class T>
     [[gnu::cold]] void check_skins(int s) const
     {
-        const std::string built = of_species(s, "build_position");
-        const bool is_built = has_lasting(s, "build_position");
-        auto const& table = state_.table<T>(is_built ? built : of_species(s, "position"), dim_);
-        const std::vector<double> x(table.begin(), table.end());
-        std::vector<std::int32_t> all(x.size());
-        if (!scene_.places(grid_box(), x.data(), x.size() / dim_, all.data()))
-            state_.refuse("with a particle too far from the origin");
+        const std::vector<std::int32_t> all = places_of<T>(s);
         if (!local_) return;
         std::vector<std::int32_t const*> places;
         for (std::size_t k = 0; k < all.size(); k += dim_) places.push_back(all.data() + k);
@@ -196,6 +226,19 @@ private:
         for (std::size_t k = 0; fine && k < places.size(); ++k)
             fine = same(places[k], place_of(std::size_t(s), k)) && mine[k] > 0 && mine[k] <= facts_.widest_skin;
         if (!fine) state_.refuse("with skins that are not those of its particles");
+    }
+    /// The patch in which each particle was when lists were built.
+    template <class T>
+    [[gnu::cold]] std::vector<std::int32_t> places_of(int s) const
+    {
+        const std::string built = of_species(s, "build_position");
+        const bool is_built = has_lasting(s, "build_position");
+        auto const& table = state_.table<T>(is_built ? built : of_species(s, "position"), dim_);
+        const std::vector<double> x(table.begin(), table.end());
+        std::vector<std::int32_t> all(x.size());
+        if (!scene_.places(grid_box(state_, facts_), x.data(), x.size() / dim_, all.data()))
+            state_.refuse("with a particle too far from the origin");
+        return all;
     }
     [[gnu::cold]] bool has_lasting(int s, std::string_view wanted) const
     {
@@ -241,7 +284,7 @@ private:
     AnyScene& scene_;
     State const& state_;
     Facts const& facts_;
-    std::size_t dim_;
+    std::size_t dim_, markers_;
     bool local_ = false;
 };
 
