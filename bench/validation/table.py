@@ -73,7 +73,7 @@ def lines_of(measured):
         status = next((s for s in ("missed", "known gap", "met") if s in found), "told")
         if {"met", "known gap"} <= found:
             status = "met; known gap at " + ", ".join(r["n"] for r in rows if r["status"] == "known gap")
-        cpu = "; ".join(f"{float(best[key]['cpu_s']):.2g}" for key in best if not (key[1] and (key[0], False) in best))
+        cpu = "; ".join(f"{float(best[key]['cpu_s']):.2g}" for key in best if key[0] and not (key[1] and (key[0], False) in best))
         lines.append({"case": case, "scene": scene, "what": what, "values": values, "gate": ", ".join(gates), "order": order,
                       "cpu": cpu, "status": status})  # fmt: skip
     return lines
@@ -83,32 +83,38 @@ def markdown(head, rows):
     return "\n".join(["| " + " | ".join(head) + " |", "|" + "---|" * len(head), *("| " + " | ".join(row) + " |" for row in rows)])
 
 
+def status_of(case, tests, measured):
+    """In words: gates met, gaps, failures, and what was not run."""
+    if case["tests"].startswith("-"):
+        return "not there: " + case["tests"][1:]
+    ran = [t for t in tests if t["cpu_s"]]
+    waiting = len(tests) - len(ran)
+    gated = [m for m in measured if m["gate"]]
+    gaps = {(m["scene"], m["what"], m["n"]) for m in measured if m["status"] == "known gap"}
+    found = []
+    if met := sum(m["status"] == "met" for m in gated):
+        found.append(f"gates met: {met}")
+    if gaps or any(int(t["known_gap"]) for t in ran):
+        found.append(f"**known gaps: {len(gaps) or sum(int(t['known_gap']) for t in ran)}**")
+    if failed := sum(int(t["failed"]) for t in ran):
+        found.append(f"**tests that fail: {failed}**")
+    if measured and not gated:
+        found.append("told, the plan has no gate")
+    if ran and not measured:
+        found.append(f"tests that pass: {sum(int(t['passed']) for t in ran)}")
+    if waiting or not ran:
+        found.append(f"tests not run yet: {waiting or 'all'}")
+    return ", ".join(found)
+
+
 def overview(into, cases, tests, measured):
     rows = []
     for c in cases:
         mine = [t for t in tests if t["case"] == c["case"]]
-        numbers = [m for m in measured if m["case"] == c["case"]]
-        link = c["case"]
-        if c["figure"] and (into / c["figure"]).exists():
-            link = f"[{c['case']}]({c['figure']})"
-        if c["tests"].startswith("-"):
-            status = "not there: " + c["tests"][1:]
-        elif not mine:
-            status = "not run yet"
-        else:
-            failed, gaps = sum(int(t["failed"]) for t in mine), {(m["scene"], m["what"], m["n"]) for m in numbers if m["status"] == "known gap"}
-            gated = [m for m in numbers if m["gate"]]
-            met = sum(m["status"] == "met" for m in gated)
-            status = f"{met} gates met" if gated else f"{sum(int(t['passed']) for t in mine)} tests pass"
-            skipped = sum(int(t["known_gap"]) for t in mine)
-            if gaps or skipped:
-                status += f", **{len(gaps) or skipped} known gaps**" if len(gaps) > 1 else ", **1 known gap**"
-            if failed:
-                status += f", **{failed} tests fail**"
-            if numbers and not gated:
-                status += ", no gate in the plan"
-        cpu = f"{sum(float(t['cpu_s']) for t in mine):.2g} s" if mine else ""
-        rows.append([link, c["title"], c["reference"], cpu, status])
+        there = c["figure"] and (into / c["figure"]).exists()
+        cpu = sum(float(t["cpu_s"] or 0) for t in mine)
+        rows.append([f"[{c['case']}]({c['figure']})" if there else c["case"], c["title"], c["reference"], f"{cpu:.2g} s" if cpu else "",
+                     status_of(c, mine, [m for m in measured if m["case"] == c["case"]])])  # fmt: skip
     return markdown(("case", "what", "reference", "CPU time", "status"), rows)
 
 
@@ -134,7 +140,7 @@ def write(into):
     tests, measured = rows_of(store / "tests.csv"), rows_of(store / "measured.csv")
     page = into / "validation.md"
     text = page.read_text()
-    commits = sorted({f"{t['commit']} ({t['date']})" for t in tests})
+    commits = sorted({f"{t['commit']} ({t['date']})" for t in tests if t["commit"]})
     note = (
         "Written by `bash bench/run.sh validation` (with `--long` the long tests too) from [tests.csv](validation/tests.csv); a case\n"
         "links its figure. CPU time is that of all its tests that were run, on one machine that does other work too. Commits: "

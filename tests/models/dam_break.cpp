@@ -147,7 +147,7 @@ TEST(DamBreak, FollowsMartinAndMoyceOnMarkersByContinuity) { expect_the_fall(ByC
 
 /// Koshizuka & Oka (1996), V27, which sets no gate: the same column, a = 0.146 m. Sound, weight and dissipation scale with it,
 /// so that the run is that of Martin & Moyce in units of its own; the experiment is another one.
-TEST(DamBreak, IsAheadOfKoshizukaAndOka)
+TEST(DamBreak, IsToldBesideKoshizukaAndOka)
 {
     const models::Case c("V27", "column 1 : 2", 40);
     const Fall f = fall(40, Adami{.suction = false});
@@ -156,13 +156,12 @@ TEST(DamBreak, IsAheadOfKoshizukaAndOka)
     c.told("error of the front, rms after a shift of time", best.error);
     c.told("error of the front, rms as it stands", relative_error(shifted(f.front, data, 0), data));
     c.told("shift of time", best.shift);
-    // Two experiments on the same column: theirs is up to 0.3 behind that of Martin & Moyce.
+    EXPECT_EQ(f.leaks, 0);
+    // The two experiments differ: this one is up to 0.3 behind that of Martin & Moyce.
     const Series other = models::column_of("martin_moyce_1952_n2_2_front.csv", "T", "Z", 3.4);
     double behind = 0;
     for (std::size_t k = 1; k < data.t.size(); ++k) behind = std::max(behind, other.at(data.t[k]) - data.y[k]);
     EXPECT_NEAR(behind, 0.3, 0.05);
-    for (std::size_t k = 1; k < data.t.size(); ++k)
-        EXPECT_GE(f.front.at(data.t[k]), data.y[k] - 0.05) << data.t[k]; // what the reading of a plot may be off
 }
 
 } // namespace
