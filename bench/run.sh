@@ -7,13 +7,14 @@ names=()
 for file in bench/*.cpp; do
     [[ ! -f $file ]] || names+=("$(basename "$file" .cpp)")
 done
-names+=(compile_time work_precision advise)
+names+=(compile_time work_precision advise validation)
 usage()
 {
     cat <<END
 usage: bash bench/run.sh NAME [options of Google Benchmark]
        bash bench/run.sh work_precision [--set paper] [--figures W1,...]
        bash bench/run.sh advise --case taylor_green --error 0.01 | --budget 10s
+       bash bench/run.sh validation [--long] [--only V15,...]
 
 NAME is one of: ${names[*]}
 Writes build/bench/NAME.json, and its plot beside it where there is one. What each measures: bench/README.md.
@@ -44,6 +45,17 @@ fi
 if [[ $name == compile_time ]]; then
     bash tools/setup.sh --with examples --with clang
     exec bash bench/compile_time.sh "$@"
+fi
+if [[ $name == validation ]]; then
+    case " $* " in # nothing to build for
+        *" --help "* | *" -h "* | *" --page-only "*) exec /usr/bin/python3 -B bench/validation/run.py "$@" ;;
+    esac
+    bash tools/setup.sh --with tests
+    cmake --preset gcc > /dev/null
+    folders=$(grep -oE '\b(kernel|cells|physics|boundary|integrator|order|oracle|models):' bench/validation/cases.csv | tr -d : | sort -u)
+    # shellcheck disable=SC2086
+    cmake --build --preset gcc -j 2 --target $(printf 'test_%s ' $folders)
+    exec /usr/bin/python3 -B bench/validation/run.py "$@"
 fi
 target=bench_$name
 [[ $of_ladders == no ]] || target=bench_work_precision

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Couette and Poiseuille flow from rest (Morris, Fox & Zhu 1997, section 5) against their series: numerics V12, V13, V14.
+#include "models/case.hpp"
 #include "models/internal_flow.hpp"
-#include "models/known_gap.hpp"
 #include "models/results.hpp"
 #include "oracle/table.hpp"
 
@@ -75,19 +75,30 @@ TEST(Channel, SeriesAreThoseOfTheTable)
                             std::stod(row.at(flow + "_t" + t)), 1e-8);
 }
 // 1 % at 50 across: numerics V12, V13.
-TEST(Couette, HasTheVelocityOfItsSeriesAtFourTimes) { EXPECT_LE(worst(couette(50), 50, "couette", four), 0.01); }
+constexpr auto largest = "error of velocity, largest over V0, four times";
+TEST(Couette, HasTheVelocityOfItsSeriesAtFourTimes)
+{
+    const models::Case c("V12", "from rest", 50);
+    c.at_most(largest, worst(couette(50), 50, "couette", four), 0.01);
+}
 TEST(Poiseuille, HasTheVelocityOfItsSeriesAtFourTimes)
 {
-    EXPECT_LE(worst(poiseuille(50), 50, "poiseuille", four), 0.01);
+    const models::Case c("V13", "from rest", 50);
+    c.at_most(largest, worst(poiseuille(50), 50, "poiseuille", four), 0.01);
 }
 
 // Order 1.5 at least over 20, 40, 80 across; at the time when the profile is sharp. Long: at all four times.
 void converges(auto scene, std::string const& flow, std::vector<std::string> const& times)
 {
+    const std::string id = flow == "couette" ? "V12" : "V13";
+    const std::string what = times.size() == 1 ? "error of velocity, largest over V0, t = 0.0225" : largest;
     double e[3];
-    for (int k = 0; k < 3; ++k) e[k] = worst(scene(20 << k), 20 << k, flow, times);
-    std::printf("%s: order %.2f\n", flow.c_str(), models::order(e[0], e[2]));
-    EXPECT_GE(models::order(e[0], e[2]), 1.5);
+    for (int k = 0; k < 3; ++k) {
+        const models::Case c(id, "from rest", 20 << k);
+        e[k] = worst(scene(20 << k), 20 << k, flow, times);
+        c.told(what, e[k]);
+    }
+    models::Case(id, "from rest", 0).at_least("order of the " + what + ", 20 to 80", models::order(e[0], e[2]), 1.5);
     EXPECT_LT(e[1], e[0]);
     EXPECT_LT(e[2], e[1]);
 }
@@ -123,32 +134,34 @@ State state(auto const& s, int n, double speed)
 // To 10 L^2/nu, numerics V14: steady, without voids, density within 1e-4.
 TEST(Poiseuille, IsSteadyAfterTenTimesOfViscosity)
 {
+    const models::Case c("V14", "plates, Re = 0.0125, 10 L^2/nu", 20);
     auto s = poiseuille(20);
     s.run({.until = 9});
     const State before = state(s, 20, V0);
     s.run({.until = 10});
     const State after = state(s, 20, V0);
-    EXPECT_LT(std::abs(after.drift), 1e-4);
+    c.at_most("drift of density", std::abs(after.drift), 1e-4);
     EXPECT_NEAR(after.middle, before.middle, 1e-3);
-    EXPECT_LT(after.empty, 1);
-    EXPECT_LE(after.error, 0.01);
+    c.at_most("emptiest place [dx]", after.empty, 1);
+    c.at_most("error of velocity, largest over V0", after.error, 0.01);
 }
 // The same at Re = 1, where fluid passes the box 25 times: no voids, no leaks; the speed that the force asks for; the
 // drift of its density is a known gap.
 TEST(Poiseuille, HasNoVoidsAfterTwentyFivePassages)
 {
     constexpr double faster = 80;
+    const models::Case c("V14", "plates, Re = 1, 10 L^2/nu", 20);
     auto s = poiseuille(20, faster);
     s.run({.until = 10});
     const State after = state(s, 20, faster * V0);
-    EXPECT_LT(after.empty, 1);
+    c.at_most("emptiest place [dx]", after.empty, 1);
     EXPECT_EQ(Leaks{L / 20}(s), 0);
     // What the force puts in, the plates take out: the momentum is steady.
     s.refresh();
     const double force = WallForce{}(s)[0], weight = rho0 * 0.4 * L * L * 8 * nu * faster * V0 / (L * L);
     std::printf("force on the plates over that on the fluid: %.5f\n", force / weight);
-    EXPECT_NEAR(force / weight, 1, 0.01);
-    models::known_gap("V14 density Re 1", std::abs(after.drift));
+    c.at_most("force on the plates, off by", std::abs(force / weight - 1), 0.01);
+    c.known_gap("drift of density", std::abs(after.drift), "V14 density Re 1");
 }
 
 } // namespace

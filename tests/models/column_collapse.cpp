@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A column of discs with friction falls on a floor with friction: V54 of the validation plan. Tall columns (height over
 // width a above 3) run out by a power of a, 2/3 in a channel (Lube et al. 2005) and 0.7 for discs (Staron & Hinch 2005).
-#include "models/known_gap.hpp"
+#include "models/case.hpp"
 #include "models/results.hpp"
 #include "oracle/dice.hpp"
 
@@ -93,20 +93,20 @@ Collapse collapse(double stacked)
 
 TEST(LongColumnCollapse, RunsOutByAPowerOfTheHeight)
 {
+    const models::Case c("V54", "column of discs", across);
     auto table = models::results("column_collapse.csv", "aspect,runout,height");
     double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
     for (double stacked : {4.0, 5.5, 7.5, 10.0, 13.5}) {
-        const auto c = collapse(stacked);
-        table << c.aspect << ',' << c.runout << ',' << c.height << '\n';
-        std::printf("a %.2f: runout %.2f, height %.2f widths\n", c.aspect, c.runout, c.height);
-        const double x = std::log(c.aspect), y = std::log(c.runout);
+        const auto heap = collapse(stacked);
+        table << heap.aspect << ',' << heap.runout << ',' << heap.height << '\n';
+        std::printf("a %.2f: runout %.2f, height %.2f widths\n", heap.aspect, heap.runout, heap.height);
+        const double x = std::log(heap.aspect), y = std::log(heap.runout);
         n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
     }
     const double exponent = (n * sxy - sx * sy) / (n * sxx - sx * sx);
     std::printf("exponent %.3f, prefactor %.2f\n", exponent, std::exp((sy - exponent * sx) / n));
-    RecordProperty("exponent", std::to_string(exponent));
-    EXPECT_GE(exponent, 0.6);
-    models::known_gap("V54 exponent of the runout", exponent);
+    c.at_least("exponent of the runout", exponent, 0.6);
+    c.known_gap("exponent of the runout", exponent, "V54 exponent of the runout");
 }
 
 } // namespace

@@ -12,14 +12,21 @@ namespace models {
 
 /// Quintic spline at h = dx; c0 ten times the fastest flow; C = 0.25. Shifting goes with the C = 1.5 of Sun et al. (2017), for a
 /// step of 1.5 h/c0, so with 6 times the Courant number of the step that is taken, by sound or by viscosity.
+/// \param sound  over the fastest flow; 10 but where the limit of it is looked for
 template <int Dim = 2, class... Term>
-auto internal_flow(double dx, double rho0, double nu, double fastest, Term... term)
+auto internal_flow_at(double sound, double dx, double rho0, double nu, double fastest, Term... term)
 {
     using namespace spate;
-    const double c0 = 10 * fastest, courant = std::min(0.25, 0.125 * c0 * dx / nu);
+    const double c0 = sound * fastest, courant = std::min(0.25, 0.125 * c0 * dx / nu);
     return wcsph(QuinticSpline<Dim>{.h = dx}, LinearEos{.rho0 = rho0, .c0 = c0}, Continuity<2>{},
                  MolteniColagrossi{.delta = 0.1}, PressureForce<2>{}, LaminarViscosity{.mu = rho0 * nu, .eps = 0},
                  Shifting{.mach = fastest / c0, .cfl = 6 * courant}, term...);
+}
+
+template <int Dim = 2, class... Term>
+auto internal_flow(double dx, double rho0, double nu, double fastest, Term... term)
+{
+    return internal_flow_at<Dim>(10, dx, rho0, nu, fastest, term...);
 }
 
 /// The slope of the error over two halvings of the spacing.

@@ -1,10 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draws the figures of internal.md from the tables that the tests of models leave in this folder:
-
-    SPATE_RESULTS=docs/results/sph build/gcc/tests/test_models --gtest_filter='Couette.*:Poiseuille.*:TaylorGreen.*:Cavity.*'
-    python3 docs/results/sph/internal.py
-"""
+"""Draws the figures of internal.md from the curves that the tests of models leave; `bash bench/run.sh validation` runs both."""
 
 import csv
 from pathlib import Path
