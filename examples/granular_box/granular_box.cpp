@@ -26,8 +26,7 @@ int main(int argc, char** argv)
         const auto walls = std::apply([&](auto... f) { return Walls(*start.box, f...); }, faces);
         // Energy is looked at often where the scheme may create it.
         const Watch watch{.energy_every = scene::Integrator::growth(1) > 0 ? 10 : 100};
-        Simulation box(grains, scene::Integrator{}, walls, scene::backend(o), scene::Precision{},
-                       watch);
+        Simulation box(grains, scene::Integrator{}, walls, scene::backend(o), scene::Precision{}, watch);
         start.add_to(box);
         example.run(box);
     });
