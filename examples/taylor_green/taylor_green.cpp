@@ -30,8 +30,7 @@ int main(int argc, char** argv)
                            Shifting{.mach = U / c0, .cfl = 6 * courant});    // dx     = -C Ma (2h)^2 sum V_j/2 (1 + R) grad W
         // clang-format on
         const Box<2> box{{0, 0}, {L, L}};
-        Simulation flow(fluid, scene::Integrator{}, Periodic(box), scene::backend(o),
-                        scene::Precision{});
+        Simulation flow(fluid, scene::Integrator{}, Periodic(box), scene::backend(o), scene::Precision{});
         flow.fill(box, dx, [&](auto& p, auto i) { p.put(velocity, i, exact(p.at(position, i), 0)); });
         example.run(flow, example::Difference{"error", U, exact});
     });

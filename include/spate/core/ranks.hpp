@@ -42,6 +42,7 @@ struct Alone {
         return mine;
     }
     static void each(auto&, auto const&) {}
+    static void leave(int /*code*/) {} // there is nobody to tell
     static std::vector<Parcel> scatter(std::vector<Parcel> parcels) { return parcels; }
     struct Landed {
         static int next() { return -1; }
