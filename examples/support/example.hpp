@@ -89,16 +89,8 @@ public:
             if (const int signal = ranks.all(interrupt(), spate::agree::Most{}); signal != 0)
                 interrupted(summary, signal, scene.steps(), scene.time(), checkpoints.last());
         }
-        catch (spate::Stop const& e) {
-            summary.stop = e.name(), summary.stop_message = e.what(), summary.stop_facts = e.facts();
-            code_ = 3;
-        }
-        catch (spate::OtherRankFailed const&) {
-            code_ = 4;
-        }
-        catch (spate::OutputError const& e) {
-            summary.stop = "OutputError", summary.stop_message = e.what();
-            code_ = 4;
+        catch (...) {
+            ended_early(); // or it goes on
         }
         if (!checkpoints.last().empty()) summary.files.emplace_back("checkpoint_*.h5");
         finish(summary, scene);

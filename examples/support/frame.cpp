@@ -9,6 +9,7 @@
 
 #include <spate/core/together.hpp>
 #include <spate/io/detail/replace_file.hpp>
+#include <spate/io/output_error.hpp>
 
 #include "support/interrupt.hpp"
 #include "support/passive.hpp"
@@ -71,6 +72,23 @@ void Frame::require_writable(std::filesystem::path const& directory)
     }
 }
 
+void Frame::ended_early()
+{
+    try {
+        throw;
+    }
+    catch (spate::Stop const& e) {
+        summary_.stop = e.name(), summary_.stop_message = e.what(), summary_.stop_facts = e.facts();
+        code_ = 3;
+    }
+    catch (spate::OtherRankFailed const&) {
+        code_ = 4;
+    }
+    catch (spate::OutputError const& e) {
+        summary_.stop = "OutputError", summary_.stop_message = e.what();
+        code_ = 4;
+    }
+}
 void Frame::interrupted(Summary& s, int signal, std::int64_t step, double time, std::filesystem::path const& checkpoint)
 {
     s.stop = "Interrupted";

@@ -35,6 +35,8 @@ public:
 protected:
     /// Before step 0 a directory that cannot be written in is bad input; later it is an OutputError.
     static void require_writable(std::filesystem::path const& directory);
+    /// In a handler: the exit code and the summary of a Stop, of a failed output, or of another rank's failure.
+    void ended_early();
     void interrupted(Summary& s, int signal, std::int64_t step, double time, std::filesystem::path const& checkpoint);
     /// What is printed on standard output.
     struct Talk {
