@@ -23,7 +23,7 @@ struct Front {
     double share = 0.995; ///< [-]
     std::string name = "front";
 
-    double operator()(auto const& scene) const // [m]
+    [[gnu::cold]] double operator()(auto const& scene) const // [m]
     {
         auto const& p = scene.particles();
         const auto ranks = party_of(scene);

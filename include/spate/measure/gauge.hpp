@@ -21,7 +21,7 @@ struct Gauge {
     Vec<Dim, double> foot; ///< [m]
     double spacing;        ///< of the particles [m]
 
-    double operator()(auto const& scene) const // [m]
+    [[gnu::cold]] double operator()(auto const& scene) const // [m]
     {
         auto const& p = scene.particles();
         const double h = scene.physics().interaction.length();
@@ -45,7 +45,7 @@ struct WettedLength {
     double half;           ///< of the edge of the square [m]
     double spacing;        ///< of the particles [m]
 
-    double operator()(auto const& scene) const // [m]
+    [[gnu::cold]] double operator()(auto const& scene) const // [m]
     {
         auto const& p = scene.particles();
         const double edge = 2 * half, volume = std::pow(spacing, Dim) / std::pow(edge, Dim - 1);

@@ -23,7 +23,7 @@ struct Probe {
     F field;
     Vec<Dim, double> at; ///< [m]
 
-    Value<F, Dim, double> operator()(auto const& scene) const
+    [[gnu::cold]] Value<F, Dim, double> operator()(auto const& scene) const
     {
         auto const& p = scene.particles();
         auto const& interaction = scene.physics().interaction;

@@ -736,7 +736,7 @@ public:
     /// The sums of chosen terms on the mobile particles over one source only, without touching the rates: the force of a
     /// wall. `finish(i, sums)` is called for each particle with the sums as double.
     template <int source>
-    void partial_sums(auto const& finish)
+    [[gnu::cold]] void partial_sums(auto const& finish)
     {
         static constexpr Mask pair_terms = pair_terms_from(source);
         auto& p = mobile();
