@@ -226,7 +226,8 @@ void System<P, B, Workers, Precision>::cut_by_cost()
     each_species([&](auto s) {
         auto const& bins = species<s()>().bins;
         for (std::size_t k = 0; k < bins.cells(); ++k) {
-            const double tasks = balance.by_pairs ? a_pair * double(pairs_of_cell<s()>(k)) : double(parts_.cost(s())[k]);
+            const double tasks =
+                balance.by_pairs ? a_pair * double(pairs_of_cell<s()>(k)) : double(parts_.cost(s())[k]);
             const double rest = a_pair * balance.a_particle * double(bins.end(k) - bins.begin(k));
             cost.push_back({along_curve<dim>(bins.cell(k)), std::llround(tasks + rest)});
         }
