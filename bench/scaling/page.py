@@ -23,15 +23,15 @@ def machine_of(measured, tables):
     seconds = 1e-3 * one["ms_step"] * one["steps"]
     evaluations = 2 * one["steps"]
     in_tasks = one["busy"][0] * seconds
-    quiet = tables[87, 2, 2]
+    small = [t for t in tables.values() if len(t) <= 128]  # the least of them: others may have been busy
     near = lambda r: sum(r[k] for k in ("out_particles_0", "in_particles_0", "out_particles_1", "in_particles_1"))
     values = lambda r: 8 * (r["out_particles_0"] + r["in_particles_0"]) + 5 * (r["out_particles_1"] + r["in_particles_1"])
     return model.Machine(
         pair=in_tasks / one["pairs"],
         particle=(seconds - in_tasks) / (evaluations * one["markers"]),
         memory=min(m["megabyte"] for m in measured.values() if m["megabyte"] > 0) / 2**20,
-        meet=statistics.median(r["meet"] / near(r) for r in quiet),
-        copy=statistics.median(r["copy"] / values(r) for r in quiet),
+        meet=min(statistics.median(r["meet"] / near(r) for r in t) for t in small),
+        copy=min(statistics.median(r["copy"] / values(r) for r in t) for t in small),
         turn=2.5e-9,
         rebuilds=one["rebuilds"] / one["steps"],
         reductions=(two["reductions"] / two["ranks"] - 5 * two["rebuilds"] / 4) / two["steps"],
@@ -179,7 +179,7 @@ def write(tables, measured, steps, context):
     for cells in ("2", "4"):
         for ranks in ("1", "2"):
             m = measured[f"{ranks}/{cells}"]
-            each = {k: 0.0 for k in tables[8, 1, 2][0]}
+            each = {k: 0.0 for k in next(iter(tables.values()))[0]}
             half = {**each, "later": m["pairs"] / (2 * m["steps"]) / m["ranks"], "particles": m["markers"] / m["ranks"]}
             if m["ranks"] == 2:
                 sent = [m["first"][0], m["first"][1]]
@@ -311,7 +311,9 @@ Scene `big` in developed flow, 40 steps from t = 0.30 s, balance on, processes o
 
 {measured}
 
-Constants are from one rank with --cell 2. The aim for two ranks is 0.6 of one rank's time, and 15 % between model and measurement.
+Constants are from one rank with --cell 2. The aims are 0.6 of one rank's time for two, and 15 % between model and measurement; the
+table says what was reached. Both cores were shared with other work while this was measured: two ranks, which need both, suffer
+more from that than one.
 
 ## A step on two processes
 
@@ -341,13 +343,14 @@ costs differ by more than 5 %.
 
     (1)  work       = 2 (pairs t_pair + particles t_particle)               of the rank that takes longest; pairs when the next look is due
     (2)  handing    = 2 (values t_copy + messages o)                        8 values a particle of water, 5 a marker
-    (3)  waiting    = 2 max(0, 2 (L + 2 o) + G N far + t_memory near - inner pairs t_pair)    N ranks of a node send at once
+    (3)  waiting    = 2 max(0, L + 2 o + G far + t_memory near - pairs that wait for no other node t_pair)   for each exchange
     (4)  rebuilds   = r (particles sent and received t_meet + 2 o parcels)
     (5)  reductions = (n + 5 r) A log2 P
     (6)  cuts       = r / 4 ((turns + 1) allreduce(8 P bytes) + turns P t_turn)      as if every look led to new cuts
 
-far and near: bytes to other nodes and within the node, counted, ranks numbered along the curve. Two exchanges follow each other in
-an evaluation: records of water for the walls, then records of walls. All-reduces of P values go through the card once there and
+far: bytes that all ranks of a node send to other nodes, through one card; near: those that a rank sends within its node; both
+counted, ranks numbered along the curve. Two exchanges follow each other in an evaluation where a rank has walls: records of water
+are hidden by its wall cells alone, then records of walls by its water. Elsewhere both are hidden by water. All-reduces of P values go through the card once there and
 back, and through the memory of a node for each doubling of its ranks.
 
 {constants}
