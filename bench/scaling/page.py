@@ -260,7 +260,7 @@ BRUTE = Path(__file__).resolve().parent.parent.parent / "build" / "bench" / "sca
 
 TEMPLATE = """# Many ranks
 
-<!-- bench/scaling writes this page: bash bench/run.sh scaling -->
+`bash bench/run.sh scaling` writes this page.
 
 The load is the developed dam break `big` at t = 0.30 s (80,000 particles of water, 58,428 markers), as it is or with each
 particle cut into m^3 and the walls laid anew. Machine: {machine}.
@@ -280,7 +280,8 @@ Three kinds of numbers are on this page, and each table says which:
 
 Counted: {ranks_1e5} ranks of 1e5, {ranks_1e4} of 1e4 particles. The last column but two is extrapolated: what a rank loses by itself and with its
 neighbours grows with log P as among the counted ranks, reductions and cuts follow from the network. Efficiency is the mean
-work of a rank over the time of a step.
+work of a rank over the time of a step. For the counts of 1,150 ranks and of the larger load of the next section it was
+not counted which cells wait for their own node alone; there all that wait for anybody are taken as not hidden.
 
 Where a step goes, MODELLED on the first network:
 
@@ -358,7 +359,7 @@ back, and through the memory of a node for each doubling of its ranks.
 
 CELLS = """# The edge of cells
 
-<!-- bench/scaling writes this page: bash bench/run.sh cell_size -->
+`bash bench/run.sh cell_size` writes this page.
 
 The seeds' study of hyper-parameters: --cell by ranks and threads on both seed cases, whole steps, the least of two runs for each ten
 steps. No choice changes a bit of the result. Machine: {machine}.
