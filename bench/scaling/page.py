@@ -268,7 +268,7 @@ particle cut into m^3 and the walls laid anew. Machine: {machine}.
 Three kinds of numbers are on this page, and each table says which:
 
 - **counted**: the library's own decomposition, halo and balance, run on so many virtual ranks without the physics. For 2, 3 and 8
-  ranks the particles of each message are those of whole scenes on as many processes, to the last one.
+  ranks each rank sends as many particles as in whole scenes on as many processes, to the last one.
 - **measured**: whole scenes on one and two cores of this machine.
 - **MODELLED**: what counted ranks would take on a network whose constants are from others, by the formulas below.
 
@@ -313,7 +313,7 @@ Scene `big` in developed flow, 40 steps from t = 0.30 s, balance on, processes o
 {measured}
 
 Constants are from one rank with --cell 2. The aims are 0.6 of one rank's time for two, and 15 % between model and measurement; the
-table says what was reached. Both cores were shared with other work while this was measured: two ranks, which need both, suffer
+table says what was reached. Each row is the least of several runs, and both cores were shared with other work in all of them: two ranks, which need both, suffer
 more from that than one.
 
 ## A step on two processes
@@ -331,7 +331,7 @@ In the third picture the line is right after cells have moved, triangles when th
 
 {counts}
 
-The largest run is {largest} ranks with {largest_load} particles each: memory of one machine.
+The largest run is {largest} ranks with {largest_load} particles each. 16,384 with 1,178 each were tried; they want more than 19 GB, most of it for the cuts, which each rank holds.
 
 ## What grows with the number of ranks
 

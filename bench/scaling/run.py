@@ -19,7 +19,7 @@ CELLS = (1, 2, 3, 4, 6)
 COUNTED = [(p, 1, 2) for p in STRONG] + [(p, 3, 2) for p in STRONG] + [(64, 2, c) for c in CELLS]
 COUNTED += [(8, 2, 2), (27, 3, 2), (60, 4, 2), (115, 5, 2)]  # 1e5 particles a rank
 COUNTED += [(87, 2, 2), (266, 3, 2), (600, 4, 2), (1150, 5, 2)]  # 1e4
-COUNTED += [(4096, 7, 2), (16384, 6, 1)]  # as many as memory and minutes allow
+COUNTED += [(4096, 7, 2), (16384, 6, 1)]  # as memory allows: 13 GB, and more than 19
 
 
 def build(name):
