@@ -7,12 +7,13 @@ names=()
 for file in bench/*.cpp; do
     [[ ! -f $file ]] || names+=("$(basename "$file" .cpp)")
 done
-names+=(compile_time work_precision advise validation)
+names+=(compile_time work_precision advise scaling validation)
 usage()
 {
     cat <<END
 usage: bash bench/run.sh NAME [options of Google Benchmark]
        bash bench/run.sh work_precision [--set paper] [--figures W1,...]
+       bash bench/run.sh scaling [--only count|measure|diaries|page] [--anew]
        bash bench/run.sh advise --case taylor_green --error 0.01 | --budget 10s
        bash bench/run.sh validation [--long] [--only V15,...]
 
@@ -33,11 +34,11 @@ shift
 }
 
 bash tools/setup.sh --with bench
-of_ladders=no
+by_python=no
 tool=bench/work_precision/$name.py
-if [[ $name == work_precision || $name == advise ]]; then
-    of_ladders=yes
-    [[ $name == advise ]] || tool=bench/work_precision/run.py
+if [[ $name == work_precision || $name == advise || $name == scaling ]]; then
+    by_python=yes
+    [[ $name == advise ]] || tool=bench/$name/run.py
     case " $* " in # nothing to build for
         *" --help "* | *" -h "* | *" --page-only "* | *" --dry "*) exec /usr/bin/python3 -B "$tool" "$@" ;;
     esac
@@ -58,10 +59,11 @@ if [[ $name == validation ]]; then
     exec /usr/bin/python3 -B bench/validation/run.py "$@"
 fi
 target=bench_$name
-[[ $of_ladders == no ]] || target=bench_work_precision
-if [[ $of_ladders == no ]]; then
+[[ $name != advise ]] || target=bench_work_precision
+if [[ $by_python == no ]]; then
     cmake --preset bench > /dev/null
     cmake --build --preset bench --target "$target"
+    [[ $name != cell_size ]] || cmake --build --preset bench --target bench_scaling_on_processes
 else # not part of what they print
     mkdir -p build/bench
     { cmake --preset bench && cmake --build --preset bench -j 2 --target "$target"; } > build/bench/build.log 2>&1 || {
@@ -79,7 +81,7 @@ cpu=$(sed -n 's/^model name[[:space:]]*: //p' /proc/cpuinfo 2> /dev/null | head 
 compiler=$(sed -n 's/^CMAKE_CXX_COMPILER:[A-Z]*=//p' build/bench/CMakeCache.txt | head -n 1)
 compiler="$(basename "$compiler") $("$compiler" -dumpfullversion 2> /dev/null || "$compiler" -dumpversion)"
 commit=$(git describe --always --dirty=+ 2> /dev/null) || commit=unknown
-if [[ $of_ladders == yes ]]; then
+if [[ $by_python == yes ]]; then
     exec /usr/bin/python3 -B "$tool" --executable "$executable" \
         --context "{\"cpu\": \"${cpu:-unknown} ($(nproc) cores)\", \"compiler\": \"$compiler\", \"commit\": \"$commit\"}" "$@"
 fi
@@ -96,3 +98,7 @@ if [[ $name == term_deleted ]]; then
     /usr/bin/python3 bench/instructions.py "$executable" > build/bench/instructions.txt
 fi
 /usr/bin/python3 bench/plot.py "$name"
+if [[ $name == cell_size ]]; then # and whole steps of both seed cases
+    /usr/bin/python3 -B bench/scaling/run.py --only cells --anew \
+        --context "{\"cpu\": \"${cpu:-unknown} ($(nproc) cores)\", \"compiler\": \"$compiler\", \"commit\": \"$commit\"}"
+fi

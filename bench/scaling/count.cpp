@@ -41,12 +41,13 @@ struct Row {
     std::int64_t by_number = 0, later = 0; ///< pairs with the first cuts; with these cuts when the next look is due
     std::array<std::int64_t, 2> out{}, in{}, out_particles{}, in_particles{};
     std::int64_t wall_cells = 0;
-    std::array<std::int64_t, 4> near{}; ///< pairs of cells that wait for no other node of 12, of 36: water, then walls
+    std::array<std::int64_t, 4> near{};  ///< pairs of cells that wait for no other node of 12, of 36: water, then walls
     std::array<std::int64_t, 2> first{}; ///< particles sent with the first cuts
-    std::array<std::int64_t, 2> far{};   ///< values sent to other nodes in an evaluation, of nodes of 12 and of 36 ranks
+    std::array<std::int64_t, 2> far{}; ///< values sent to other nodes in an evaluation, of nodes of 12 and of 36 ranks
     std::array<std::int64_t, 2> links{}; ///< messages that go there
-    std::int64_t moved = 0, bytes = 0;  ///< particles that have left until the next look; memory of the halo
-    double meet = 0, cut = 0, copy = 0; ///< CPU: a meeting; a search for cuts; packing and landing a round of values [s]
+    std::int64_t moved = 0, bytes = 0;   ///< particles that have left until the next look; memory of the halo
+    double meet = 0, cut = 0,
+           copy = 0; ///< CPU: a meeting; a search for cuts; packing and landing a round of values [s]
     Asked start, meeting, cutting;
 };
 
@@ -177,7 +178,8 @@ private:
             auto const& p = particles(q);
             const auto places = Places<3, T>::of(p);
             auto const& source = bins_[std::size_t(q)];
-            if (q == 0) parts_.halo(q).meet({&bins_[0], &bins_[1]}, source, places, p.id(), grid_, parts_.shares(), ranks_);
+            if (q == 0)
+                parts_.halo(q).meet({&bins_[0], &bins_[1]}, source, places, p.id(), grid_, parts_.shares(), ranks_);
             else parts_.halo(q).meet({&bins_[0]}, source, places, p.id(), grid_, parts_.shares(), ranks_);
             parts_.place(q, p.size() + 1);
         }
@@ -313,12 +315,13 @@ void write(std::vector<Row> const& rows, std::string const& file)
           "meet_scatters,meet_parcels,meet_sent,cut_reductions,cut_wide\n";
     for (auto const& r : rows) {
         to << r.particles << ',' << r.cells << ',' << r.pairs << ',' << r.inner << ',' << r.by_number << ',' << r.later;
-        for (auto const* a : {&r.out, &r.in, &r.out_particles, &r.in_particles, &r.first, &r.far, &r.links}) to << ',' << (*a)[0] << ',' << (*a)[1];
+        for (auto const* a : {&r.out, &r.in, &r.out_particles, &r.in_particles, &r.first, &r.far, &r.links})
+            to << ',' << (*a)[0] << ',' << (*a)[1];
         for (auto const n : r.near) to << ',' << n;
         to << ',' << r.wall_cells;
         to << ',' << r.moved << ',' << r.bytes << ',' << r.meet << ',' << r.cut << ',' << r.copy;
-        to << ',' << r.start.reductions << ',' << r.start.wide << ',' << r.start.scatters << ',' << r.start.parcels << ','
-           << r.start.sent;
+        to << ',' << r.start.reductions << ',' << r.start.wide << ',' << r.start.scatters << ',' << r.start.parcels
+           << ',' << r.start.sent;
         to << ',' << r.meeting.scatters << ',' << r.meeting.parcels << ',' << r.meeting.sent;
         to << ',' << r.cutting.reductions << ',' << r.cutting.wide << '\n';
     }
@@ -352,7 +355,8 @@ int main(int argc, char** argv)
     // A thread for each rank: one heap for all, or there are more mappings than a process may have.
     mallopt(M_ARENA_MAX, 1), mallopt(M_MMAP_THRESHOLD, 1 << 30);
     Options o;
-    o.ranks = std::stoi(argv[1]), o.finer = std::stoi(argv[2]), o.cell = std::stoi(argv[3]), o.look = std::stod(argv[4]);
+    o.ranks = std::stoi(argv[1]), o.finer = std::stoi(argv[2]), o.cell = std::stoi(argv[3]),
+    o.look = std::stod(argv[4]);
     o.state = argv[5], o.table = argv[6];
     if (argc > 7) o.shares = argv[7];
     try {

@@ -14,9 +14,9 @@ using namespace spate;
 
 /// What a rank has asked of its transport.
 struct Asked {
-    std::int64_t reductions = 0, reduced = 0;         ///< of one value or a few; their bytes
-    std::int64_t wide = 0, widely = 0;                ///< of a value for each rank (new cuts); their bytes
-    std::int64_t scatters = 0, parcels = 0, sent = 0; ///< messages to whom it may concern; bytes
+    std::int64_t reductions = 0, reduced = 0;                     ///< of one value or a few; their bytes
+    std::int64_t wide = 0, widely = 0;                            ///< of a value for each rank (new cuts); their bytes
+    std::int64_t scatters = 0, parcels = 0, sent = 0;             ///< messages to whom it may concern; bytes
     std::array<std::int64_t, 4> exchanges{}, messages{}, bytes{}; ///< by tag: a species each, then boxes of patches
 
     friend Asked operator-(Asked a, Asked const& b)

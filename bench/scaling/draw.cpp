@@ -63,7 +63,8 @@ int main(int argc, char** argv)
         parts.halo(0).meet({&bins}, bins, Places<2, double>::of(p), p.id(), grid, parts.shares(), rank);
         for (std::size_t k = 0; k < bins.cells(); ++k) {
             const auto at = bins.cell(k);
-            to << "cell," << rank.rank() << ',' << at[0] - corner << ',' << at[1] - corner << ',' << along_curve<2>(at) << '\n';
+            to << "cell," << rank.rank() << ',' << at[0] - corner << ',' << at[1] - corner << ',' << along_curve<2>(at)
+               << '\n';
             each_cell_around(at, grid, [&](Index<2> const& other) {
                 if (bins.find(other) >= 0 || parts.halo(0).bins().find(other) >= 0)
                     to << "pair," << rank.rank() << ',' << at[0] - corner << ',' << at[1] - corner << ','

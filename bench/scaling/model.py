@@ -71,7 +71,12 @@ class Step:
 
 def table(path):
     with open(path) as f:
-        return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(f)]
+        rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(f)]
+    for r in rows:
+        r.setdefault("wall_cells", 1.0)
+        for n in (12, 36):
+            r.setdefault(f"near_{n}_0", r["inner"]), r.setdefault(f"near_{n}_1", 0.0)
+    return rows
 
 
 def all_reduce(network, ranks, machine, size=8):
@@ -89,27 +94,34 @@ def cuts(network, ranks, machine, turns):
     return (turns + 1) * all_reduce(network, ranks, machine, 8 * ranks) + turns * ranks * machine.turn
 
 
-def of_a_rank(row, network, machine, ranks):
-    """(work, handing over, waiting that is not hidden, meeting) of one rank in a step."""
+def far_of(row, network, ranks):
+    """Bytes that a rank sends to other nodes in an evaluation."""
+    return 8 * {12: row["far_12"], 36: row["far_36"]}.get(network.node, 0) if ranks > network.node else 0
+
+
+def of_a_rank(row, of_node, network, machine, ranks):
+    """(work, handing over, waiting that is not hidden, meeting) of one rank in a step.
+    of_node: bytes that all ranks of its node send to other nodes"""
     n = machine.evaluations
     work = n * (machine.pair * row["later"] + machine.particle * row["particles"])
     values = 8 * (row["out_particles_0"] + row["in_particles_0"]) + 5 * (row["out_particles_1"] + row["in_particles_1"])
     messages = row["out_0"] + row["out_1"] + row["in_0"] + row["in_1"]
     sent = 8 * (8 * row["out_particles_0"] + 5 * row["out_particles_1"])
-    share = {12: row["far_12"], 36: row["far_36"]}.get(network.node, 0)
-    far = 8 * share if ranks > network.node else 0
+    far = far_of(row, network, ranks)
     exposed = 0.0
     if ranks > 1:
         # All ranks of the node send at once through its card.
-        wire = lambda part: network.latency + (far * network.byte * min(network.node, ranks) + (sent - far) * machine.memory) * part
+        wire = lambda part: network.latency + (of_node * network.byte + (sent - far) * machine.memory) * part
         of_water = 8 * row["out_particles_0"] / max(1, 8 * row["out_particles_0"] + 5 * row["out_particles_1"])
         water, walls = wire(of_water), wire(1 - of_water)
         # Cells that wait for nobody of another node run while its messages fly; those of walls before walls are sent.
-        inner = lambda s: machine.pair * row.get(f"near_{network.node}_{s}", row["inner"] * (1 - s))
-        if row.get("wall_cells", 1) > 0:
-            exposed = n * (max(0.0, water - inner(1)) + max(0.0, walls - inner(0)))
+        hidden = [machine.pair * row[f"near_{network.node}_{s}"] if network.node in (12, 36) else 0.0 for s in (0, 1)]
+        if network.node not in (12, 36):  # one node: all messages are near
+            hidden = [machine.pair * row["inner"], 0.0]
+        if row["wall_cells"] > 0:
+            exposed = n * (max(0.0, water - hidden[1]) + max(0.0, walls - hidden[0]))
         else:
-            exposed = n * max(0.0, max(water, walls) - inner(0))
+            exposed = n * max(0.0, max(water, walls) - hidden[0])
     over = n * (machine.copy * values + network.overhead * messages)
     near = row["out_particles_0"] + row["in_particles_0"] + row["out_particles_1"] + row["in_particles_1"]
     meeting = machine.rebuilds * (machine.meet * near + network.overhead * 2 * row["meet_parcels"])
@@ -119,7 +131,10 @@ def of_a_rank(row, network, machine, ranks):
 def step(rows, network, machine):
     """The step of counted ranks."""
     ranks = len(rows)
-    each = [of_a_rank(r, network, machine, ranks) for r in rows]
+    of_node = [0.0] * (ranks // network.node + 1)  # what goes through the card of each node
+    for k, r in enumerate(rows):
+        of_node[k // network.node] += far_of(r, network, ranks)
+    each = [of_a_rank(r, of_node[k // network.node], network, machine, ranks) for k, r in enumerate(rows)]
     mean_work = sum(e[0] for e in each) / ranks
     longest = max(each, key=sum)
     agreement = balance = 0.0

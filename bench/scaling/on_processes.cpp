@@ -85,9 +85,17 @@ Found measure(Make const& make, RunOptions const& run, Options const& o, Diary& 
         f.rebuilds = s.rebuilds() - rebuilds, f.pairs = s.pairs_evaluated() - pairs, f.markers = double(s.total());
         f.dt = (sim.time() - time) / o.steps;
         if (!o.diary.empty() && repeat == 0) {
-            diary.open = true;
-            sim.step(run);
-            diary.open = false;
+            Diary shortest; // of ten steps: the one that others have disturbed least
+            double least = std::numeric_limits<double>::infinity();
+            for (int k = 0; k < 10; ++k) {
+                diary.entries.clear(), diary.open = true;
+                const double start = Diary::now();
+                sim.step(run);
+                diary.open = false;
+                const double took = ranks.all(Diary::now() - start, agree::Most{});
+                if (took < least) least = took, shortest.entries = diary.entries;
+            }
+            diary.entries = shortest.entries;
         }
     }
     return f;
@@ -158,20 +166,22 @@ void tell(Options const& o, Found const& f, MpiRanks const& ranks)
     const auto reduced = total(f.asked.reduced), scatters = total(f.asked.scatters), parcels = total(f.asked.parcels);
     const auto sent = total(f.asked.sent), patches = total(f.asked.exchanges[2]), boxes = total(f.asked.bytes[2]);
     const auto first = shared(ranks, f.first), values = shared(ranks, f.values);
-    const double small = ranks.count() > 1 ? ping_pong(ranks, 8) : 0, large = ranks.count() > 1 ? ping_pong(ranks, 1 << 20) : 0;
+    const double small = ranks.count() > 1 ? ping_pong(ranks, 8) : 0,
+                 large = ranks.count() > 1 ? ping_pong(ranks, 1 << 20) : 0;
     const double agreed = reduction(ranks);
     if (ranks.rank() != 0) return;
     std::cout << "{\"scene\": \"" << o.scene << "\", \"ranks\": " << ranks.count() << ", \"threads\": " << o.threads
               << ", \"cell\": " << o.cell << ", \"patient\": " << o.patient << ", \"delay\": " << o.delay
-              << ", \"steps\": " << o.steps << ", \"ms_step\": " << 1e3 * sum / o.steps << ", \"markers\": " << f.markers
-              << ", \"pairs\": " << f.pairs << ", \"rebuilds\": " << f.rebuilds << ", \"dt\": " << f.dt
-              << ", \"busy\": " << list(busy) << ", \"idle\": " << list(idle) << ", \"early\": " << early
-              << ", \"tasks\": " << tasks << ", \"messages\": " << messages << ", \"bytes\": " << bytes
-              << ", \"moved\": " << moved << ", \"cuts\": " << f.cuts << ", \"imbalance\": " << f.imbalance
-              << ", \"reductions\": " << reductions << ", \"reduced\": " << reduced << ", \"wide\": " << wide
-              << ", \"scatters\": " << scatters << ", \"parcels\": " << parcels << ", \"sent\": " << sent
-              << ", \"patch_exchanges\": " << patches << ", \"patch_bytes\": " << boxes << ", \"first\": " << list(first) << ", \"values\": " << list(values) << ", \"latency\": " << small
-              << ", \"megabyte\": " << large << ", \"agreement\": " << agreed << "}\n";
+              << ", \"steps\": " << o.steps << ", \"ms_step\": " << 1e3 * sum / o.steps
+              << ", \"markers\": " << f.markers << ", \"pairs\": " << f.pairs << ", \"rebuilds\": " << f.rebuilds
+              << ", \"dt\": " << f.dt << ", \"busy\": " << list(busy) << ", \"idle\": " << list(idle)
+              << ", \"early\": " << early << ", \"tasks\": " << tasks << ", \"messages\": " << messages
+              << ", \"bytes\": " << bytes << ", \"moved\": " << moved << ", \"cuts\": " << f.cuts
+              << ", \"imbalance\": " << f.imbalance << ", \"reductions\": " << reductions
+              << ", \"reduced\": " << reduced << ", \"wide\": " << wide << ", \"scatters\": " << scatters
+              << ", \"parcels\": " << parcels << ", \"sent\": " << sent << ", \"patch_exchanges\": " << patches
+              << ", \"patch_bytes\": " << boxes << ", \"first\": " << list(first) << ", \"values\": " << list(values)
+              << ", \"latency\": " << small << ", \"megabyte\": " << large << ", \"agreement\": " << agreed << "}\n";
 }
 
 void write(Diary const& diary, std::string const& file, MpiRanks const& ranks)

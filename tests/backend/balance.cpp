@@ -20,7 +20,8 @@ void see(Seen& seen, auto const& rank, auto const& sim, double pairs)
     auto const& r = sim.system().parts().report();
     const auto cost = std::int64_t(pairs * sim.system().backend().balance.pace);
     const auto most = rank.all(cost, agree::Most{}), sum = rank.all(cost, agree::Sum{});
-    const Seen all{double(most) * rank.count() / double(sum), r.cuts, rank.all(r.moved, agree::Sum{}), sim.state_hash()};
+    const Seen all{double(most) * rank.count() / double(sum), r.cuts, rank.all(r.moved, agree::Sum{}),
+                   sim.state_hash()};
     EXPECT_GE(sim.system().rebuilds(), 4);
     if (rank.rank() == 0) seen = all;
 }
@@ -43,7 +44,8 @@ Seen corner(int count, Balance balance, double pace = 1)
         sim.run({.steps = 120, .cfl = 0.2});
         auto const& s = sim.system();
         see(seen, rank, sim,
-            double(s.template lists<0, 0>().pairs() + s.template lists<0, 1>().pairs() + s.template lists<1, 0>().pairs()));
+            double(s.template lists<0, 0>().pairs() + s.template lists<0, 1>().pairs() +
+                   s.template lists<1, 0>().pairs()));
     });
     return seen;
 }
@@ -54,8 +56,8 @@ Seen pile(int count, Balance balance)
     VirtualRanks(count).run([&](auto rank) {
         constexpr double r = 0.01;
         const LinearSpring spring{.k = 2e4};
-        Simulation box(dem<2>({.mass = 0.1, .radius = r}, spring, Dashpot{.e = 0.5}, Gravity<2>{{0, -9.81}}), Leapfrog{},
-                       Walls(Box<2>{{0, 0}, {3, 3}}, contact(spring)), OnRank{rank, Serial{}, 1, balance});
+        Simulation box(dem<2>({.mass = 0.1, .radius = r}, spring, Dashpot{.e = 0.5}, Gravity<2>{{0, -9.81}}),
+                       Leapfrog{}, Walls(Box<2>{{0, 0}, {3, 3}}, contact(spring)), OnRank{rank, Serial{}, 1, balance});
         for (int row = 0; row < 50; ++row)
             for (int k = 0; k < 50 - row; ++k) // in touch: contacts of a heap at rest do not come and go
                 box.add({r * (1 + 1.998 * k + 0.999 * (row % 2)), r * (1 + 1.729 * row)}, {});
@@ -105,8 +107,7 @@ TEST(Balance, CountsWhatParticlesCostOutsideOfTheirPairs)
             auto water = wcsph(CubicSpline<2>{.h = 1.2 * dx}, Tait{.rho0 = 1000, .c0 = 30}, Continuity<2>{},
                                PressureForce<2>{}, ArtificialViscosity{.alpha = 0.1}, Gravity<2>{{0, -9.81}});
             Bce tank(Box<2>{{}, {{8, 4}}}, dx, Adami{}, open(top));
-            Simulation sim(water, RungeKutta2{}, tank,
-                           OnRank{rank, Serial{}, 1, Balance{1, 1, true, a_particle}});
+            Simulation sim(water, RungeKutta2{}, tank, OnRank{rank, Serial{}, 1, Balance{1, 1, true, a_particle}});
             sim.fill(Box<2>{{}, {{0.5, 0.5}}}, dx, hydrostatic);
             auto& p = sim.particles();
             for (std::size_t i = 0; i < p.size(); ++i) p.put(velocity, i, {{4 * p.at(position, i)[0], 0}});

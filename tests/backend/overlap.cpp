@@ -91,10 +91,11 @@ Seen block(Comes comes)
     VirtualRanks(ranks).run([&](auto rank) {
         constexpr double dx = 0.02;
         Log log;
-        auto water = wcsph(CubicSpline<2>{.h = 1.2 * dx}, Tait{.rho0 = 1000, .c0 = 30}, Continuity<2>{}, PressureForce<2>{},
-                           ArtificialViscosity{.alpha = 0.1});
-        Simulation sim(water, RungeKutta2{}, Open{},
-                       OnRank{Logged<decltype(rank)>{rank, &log, comes}, LoggedTasks{&log}, 1, Balance{.by_pairs = true}});
+        auto water = wcsph(CubicSpline<2>{.h = 1.2 * dx}, Tait{.rho0 = 1000, .c0 = 30}, Continuity<2>{},
+                           PressureForce<2>{}, ArtificialViscosity{.alpha = 0.1});
+        Simulation sim(
+            water, RungeKutta2{}, Open{},
+            OnRank{Logged<decltype(rank)>{rank, &log, comes}, LoggedTasks{&log}, 1, Balance{.by_pairs = true}});
         sim.fill(Box<2>{{}, {{1, 1}}}, dx, [&](auto& p, std::size_t i) {
             const auto x = p.at(position, i);
             p.put(velocity, i, {std::sin(6 * x[1]), std::sin(6 * x[0])});
