@@ -110,7 +110,7 @@ public:
     void check(double reach) const
     {
         constexpr double most = 64; // layers of markers
-        require(reach <= most * spacing_, "Bce.spacing", spacing_,
+        require(!(reach > most * spacing_), "Bce.spacing", spacing_,
                 "at least " + text(reach / most) + " m, a 64th of the reach of the neighbour lists");
         Periodic<Dim>::check_periodic(box_, edges_, reach);
     }

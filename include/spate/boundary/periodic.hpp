@@ -60,7 +60,7 @@ public:
                             " m: take a smaller h or a longer box");
             constexpr double most = 1 << 26; // bins have indices
             if (edges.periodic(c))
-                require(length <= most * reach, "periodic " + axis, length,
+                require(!(length > most * reach), "periodic " + axis, length,
                         "at most 67108864 times the reach of the neighbour lists, " + text(most * reach) + " m");
         }
     }
