@@ -66,7 +66,7 @@ def run(executable, names, at_most):
         if counts["failed"]:
             sys.stderr.write(done.stdout[-3000:] + done.stderr[-1000:])
         file = Path(scratch) / "measured.csv"
-        rows = [dict(zip(NUMBERS, row)) for row in csv.reader(file.open())] if file.exists() else []
+        rows = [dict(zip(NUMBERS, row)) for row in csv.reader(file.read_text().splitlines())] if file.exists() else []
         return counts, cpu, rows, {p.name: p.read_text() for p in Path(scratch).glob("*.csv") if p != file}
 
 
