@@ -66,7 +66,7 @@ def run(executable, names, at_most):
         if counts["failed"]:
             sys.stderr.write(done.stdout[-3000:] + done.stderr[-1000:])
         file = Path(scratch) / "measured.csv"
-        rows = [dict(zip(NUMBERS, row)) for row in csv.reader(file.open())] if file.exists() else []
+        rows = [dict(zip(NUMBERS, row)) for row in csv.reader(file.read_text().splitlines())] if file.exists() else []
         return counts, cpu, rows, {p.name: p.read_text() for p in Path(scratch).glob("*.csv") if p != file}
 
 
@@ -121,6 +121,10 @@ def main():
             names = [n for n in tests_of(executable, pattern) if (args.long or not is_long(n)) and matches(n, args.filter)]
             alone = folder == "models"
             known = {row["test"] for row in table.rows_of(store / "tests.csv")}
+            for gone in known - set(tests_of(executable, "*")) if alone else ():
+                if gone in {row["test"] for row in table.rows_of(store / "tests.csv") if row["case"] == case["case"]}:
+                    table.replace(store / "tests.csv", "test", gone, [])
+                    table.replace(store / "measured.csv", "test", gone, [])
             for name in tests_of(executable, pattern) if alone else []:
                 if name not in known and name not in names:  # there, and not run: the table says so
                     nothing = {"passed": 0, "known_gap": 0, "failed": 0, "cpu_s": "", "commit": "", "date": ""}

@@ -15,7 +15,10 @@ def catalogue():
 
 
 def rows_of(path):
-    return list(csv.DictReader(path.open())) if path.exists() else []
+    if not path.exists():
+        return []
+    with open(path) as file:
+        return list(csv.DictReader(file))
 
 
 def replace(path, column, value, rows):

@@ -109,17 +109,17 @@ def finish(figure, axes, name):
 
 
 def taylor_green():
-    figure, axes = plt.subplots(1, 2, figsize=(11, 4.2))
-    for one, re, part in ((axes[0], "", "Re = 100"), (axes[1], "_Re1000", "Re = 1000")):
-        for n, mark in ((25, "v"), (50, "o"), (100, "x")):
-            run = curve(f"taylor_green_{n}{re}_jittered.csv")
-            if run is None:
-                continue
-            if n == 50:
-                one.plot(run["t"], run["exact"], "k-", lw=0.8, label="exact")
+    panels = []
+    for re, part in (("", "Re = 100"), ("_Re1000", "Re = 1000")):
+        runs = [(n, mark, run) for n, mark in ((25, "v"), (50, "o"), (100, "x")) if (run := curve(f"taylor_green_{n}{re}_jittered.csv"))]
+        panels += [(runs, part)] if runs else []
+    figure, axes = plt.subplots(1, len(panels), figsize=(5.5 * len(panels), 4.2), squeeze=False)
+    for one, (runs, part) in zip(axes[0], panels):
+        one.plot(runs[0][2]["t"], runs[0][2]["exact"], "k-", lw=0.8, label="exact")
+        for n, mark, run in runs:
             one.plot(run["t"], run["speed"], mark, ms=4, mfc="none", label=f"{n} x {n}")
         one.set(xlabel="t U / L", ylabel="speed / that at the start", title=f"vortices from a jittered lattice, {part}")
-    finish(figure, axes, "taylor_green.png")
+    finish(figure, axes[0], "taylor_green.png")
 
 
 def cavity():
