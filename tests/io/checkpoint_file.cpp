@@ -93,10 +93,10 @@ TEST_F(CheckpointFileTest, SaysWhyItIsRefused)
     EXPECT_THAT(said_of(some), HasSubstr("damaged"));
     some = bytes;
     const auto version = std::string_view("spate checkpoint\nversion ").size();
-    for (char other : {'0', '2'}) {
+    for (char other : {'1', '3'}) {
         some[version] = std::byte(other);
         EXPECT_THAT(said_of(some),
-                    HasSubstr("of version " + std::string(1, other) + ", and this program reads version 1"));
+                    HasSubstr("of version " + std::string(1, other) + ", and this program reads version 2"));
     }
     some.assign(bytes.begin() + 512, bytes.end()); // any other HDF5 file
     EXPECT_THAT(said_of(some), HasSubstr("no checkpoint"));

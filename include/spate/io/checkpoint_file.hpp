@@ -26,7 +26,7 @@ namespace spate::io {
 
 namespace detail {
 
-constexpr int checkpoint_version = 1;
+constexpr int checkpoint_version = 2;
 constexpr std::size_t checkpoint_header = 512; ///< what HDF5 calls a user block: it looks for its own start at 512
 
 /// Of blocks of 1 MiB, each with its number, added up: ranks can share the work. A step of a block is a permutation of 2^64

@@ -73,7 +73,6 @@ public:
     {
         for (int s = 0; s < facts_.species; ++s) {
             const std::string folder = "balance_" + std::to_string(s);
-            if (!state_.has(folder + "/cost")) continue;
             auto const* place = state_.table<std::int32_t>(folder + "/place", dim_).data();
             for (const auto c : state_.table<std::int64_t>(folder + "/cost")) told.patch(s, place, c), place += dim_;
         }
@@ -106,12 +105,11 @@ private:
         check_pairs<T>();
         check_costs();
     }
-    /// Costs may be absent, from a file of older times; shares are cut by what is there.
+    /// Costs of patches, if there are any: shares are cut by them.
     [[gnu::cold]] void check_costs() const
     {
         for (int s = 0; s < facts_.species; ++s) {
             const std::string folder = "balance_" + std::to_string(s);
-            if (!state_.has(folder + "/cost")) continue;
             auto const& cost = state_.table<std::int64_t>(folder + "/cost");
             (void)state_.table<std::int32_t>(folder + "/place", dim_, cost.size());
             for (const auto c : cost)
