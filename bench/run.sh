@@ -52,7 +52,7 @@ if [[ $name == validation ]]; then
         *" --help "* | *" -h "* | *" --page-only "*) exec /usr/bin/python3 -B bench/validation/run.py "$@" ;;
     esac
     bash tools/setup.sh --with tests
-    cmake --preset gcc > /dev/null
+    cmake --preset gcc -D SPATE_QUICK_TESTS=OFF > /dev/null
     folders=$(grep -oE '\b(kernel|cells|physics|boundary|integrator|order|oracle|models):' bench/validation/cases.csv | tr -d : | sort -u)
     # shellcheck disable=SC2086
     cmake --build --preset gcc -j 2 --target $(printf 'test_%s ' $folders)

@@ -8,7 +8,7 @@ usage()
     cat <<'END'
 usage: bash tests/run.sh [options]
 
-  --long               also the tests whose suite begins with Long (minutes to hours)
+  --long               also the tests whose suite begins with Long (minutes to hours); all compiled with -O3, not -O1
   --compiler NAME      gcc (default) or clang
   --preset NAME        gcc, clang, asan-ubsan or tsan; builds in build/NAME
   --suites "NAME..."   build and run only these folders of tests/, such as "core kernel"
@@ -52,7 +52,9 @@ bash tools/setup.sh "${needs[@]}"
 # Two jobs at most: one may take a gigabyte.
 jobs=$(nproc)
 ((jobs <= 2)) || jobs=2
-cmake --preset "$preset" > /dev/null
+quick=ON
+[[ $long == no ]] || quick=OFF
+cmake --preset "$preset" -D SPATE_QUICK_TESTS=$quick > /dev/null
 targets=()
 if [[ -n $suites ]]; then
     read -ra names <<< "$suites"

@@ -1,4 +1,4 @@
-# cmake -D COMPILER=... -D FLAGS=file -D PRECOMPILED=header -D SOURCE=file.cpp -P must_not_compile.cmake
+# cmake -D COMPILER=... -D FLAGS=file -D OPTIMIZE=-O1 -D PRECOMPILED=header -D SOURCE=file.cpp -P must_not_compile.cmake
 # Passes if the compiler refuses SOURCE with a message that holds what its first line expects.
 cmake_minimum_required(VERSION 3.25)
 file(STRINGS ${SOURCE} first_line LIMIT_COUNT 1)
@@ -9,7 +9,7 @@ endif()
 string(REPLACE "\\;" ";" expected "${CMAKE_MATCH_1}")
 
 # Flags of its own mean that headers parsed before, without them, are of no use.
-set(more -include ${PRECOMPILED})
+set(more ${OPTIMIZE} -include ${PRECOMPILED})
 if(flags_line MATCHES "^// flags: (.*)")
     separate_arguments(more UNIX_COMMAND "${CMAKE_MATCH_1}")
 endif()
