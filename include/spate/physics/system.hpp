@@ -295,7 +295,8 @@ public:
     {
         each_species([&](auto s) {
             each_species([&](auto q) {
-                if constexpr (kept_values < s(), q() >> 0) f(s, q, this->template kept_of_pairs<s(), q()>());
+                constexpr int values = kept_values<s(), q()>;
+                if constexpr (values > 0) f(s, q, this->template kept_of_pairs<s(), q()>());
             });
         });
     }
