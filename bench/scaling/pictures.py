@@ -1,29 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The pictures: the drawing of cells, what ranks count, the model's curves, a diary of one step, the sweep of cells."""
 import csv
+import sys
+from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 from matplotlib.patches import Patch, Rectangle
 
-BLUE, ORANGE, GREEN, PURPLE, GREY = "#2166ac", "#d6604d", "#4d9221", "#762a83", "#737373"
-RANKS = ("#2166ac", "#d6604d", "#4d9221", "#762a83")
+sys.path.append(str(Path(__file__).resolve().parent.parent))
+from style import BLUE, GREEN, GREY, ORANGE, PURPLE, plt
 
-plt.rcParams.update(
-    {
-        "font.size": 11,
-        "axes.titlesize": 12,
-        "axes.titlelocation": "left",
-        "axes.spines.top": False,
-        "axes.spines.right": False,
-        "axes.grid": True,
-        "axes.axisbelow": True,
-        "grid.color": "#e5e5e5",
-        "legend.frameon": False,
-    }
-)
+RANKS = (BLUE, ORANGE, GREEN, PURPLE)
 
 
 def save(figure, path):
