@@ -145,6 +145,10 @@ public:
     {
         while (air_[std::size_t(s)].flying) landed(s, true);
     }
+    void finish()
+    {
+        for (int s = 0; s < Species; ++s) finish(s);
+    }
     /// Runs task(cell) for each cell of target s, each as soon as the last of what it reads has arrived, those that others
     /// have waited for first. \param sources  bit q: reads source q
     void run(int s, std::size_t cells, unsigned sources, auto const& task, auto const& backend)

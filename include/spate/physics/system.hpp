@@ -749,6 +749,7 @@ public:
         });
         pack<source, M::planner.record(source)>();
         sweep<0, pair_terms, Mask(1) << source>();
+        if constexpr (!alone) parts_.finish();
         for (std::size_t i = 0; i < p.size(); ++i) finish(i, p);
         for_each(sums, [&](auto f) {
             for (std::size_t c = 0; c < std::size(p.column(f)); ++c) p.column(f)[c] = kept.column(f)[c];
@@ -871,7 +872,7 @@ private:
             T const* at = packed.data.data() + j * std::size_t(L::stride) + L::template offset<F>;
             if constexpr (F::rank == 0) r[f] = double(*at);
             else
-                for (int c = 0; c < dim; ++c) r[f][c] = double(at[c]);
+                for (int c = 0; c < components<F, dim>; ++c) r[f][c] = double(at[c]);
         });
         return r;
     }
@@ -1098,6 +1099,7 @@ private:
                       "spate: terms wait for each other's fields; let one of them write a field of its own");
         [&]<std::size_t... k>(std::index_sequence<k...>) { (stage<plan.stage[k]>(), ...); }
         (std::make_index_sequence<std::size_t(plan.count)>{});
+        if constexpr (!alone) parts_.finish(); // what no cell here has waited for
     }
     template <Stage st>
     void stage()
