@@ -71,7 +71,7 @@ struct Logged {
 };
 struct LoggedTasks {
     Log* log;
-    static constexpr const char* name = "logged";
+    [[maybe_unused]] static constexpr const char* name = "logged";
     static constexpr int threads() { return 1; }
     static void check() {}
     void for_each(std::size_t tasks, auto const& run) const

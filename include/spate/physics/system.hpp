@@ -82,9 +82,9 @@ public:
         for_each(P::uniform, [&](auto f) { mobile().value(f) = physics_.uniforms[f]; });
     }
     System(System const&) = default;
-    System(System&&) = default;
+    System(System&&) noexcept = default;
     System& operator=(System const&) = default;
-    System& operator=(System&&) = default;
+    System& operator=(System&&) noexcept = default;
     [[gnu::cold]] ~System() = default; // small, and quick to compile
 
     // ---- the particles
