@@ -4,6 +4,8 @@
 
 #include "spate/backend/virtual_ranks.hpp"
 
+#include <memory>
+
 #include <gtest/gtest.h>
 
 namespace {
@@ -63,6 +65,24 @@ TEST(BitsOnRanks, DoNotDependOnTheNumberOfRanksUpToOneForEachFewCells)
     const auto one = dam(Serial{}, 900);
     EXPECT_EQ(on_ranks(64, shorter, 1).hash, one.hash);
     EXPECT_GE(one.rebuilds, 20);
+}
+// Nothing in it may know where it was.
+TEST(BitsOnRanks, StandWhenASceneIsMovedBetweenTwoRuns)
+{
+    const RunOptions some{.steps = 150, .dt = 2e-4};
+    auto moved = [&](auto backend) {
+        auto there = std::make_unique<decltype(hopper_box(backend))>(hopper_box(backend));
+        there->run(some);
+        auto here = std::move(*there);
+        there.reset();
+        here.run(some);
+        return scenes::Outcome{here.state_hash(), here.system().rebuilds()};
+    };
+    auto stayed = hopper_box(Serial{});
+    stayed.run(some);
+    stayed.run(some);
+    EXPECT_EQ(moved(Serial{}).hash, stayed.state_hash());
+    EXPECT_EQ(on_ranks(3, moved).hash, stayed.state_hash());
 }
 TEST(BitsOnRanks, StandWhenCellsMoveAtEveryStep)
 {

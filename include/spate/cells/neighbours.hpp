@@ -6,6 +6,8 @@
 
 #include "spate/cells/skins.hpp"
 
+#include <optional>
+
 namespace spate {
 
 /// How neighbour lists are kept; part of the scene, since bins fix the order of sums and with it the bits.
@@ -44,18 +46,18 @@ struct CellLists {
 /// Particles of a source that others own, as far as targets here reach: their records follow those of the images.
 template <int Dim, class T>
 struct Foreign {
-    Places<Dim, T> places{};
-    Binning<Dim> const* bins = nullptr;
-    std::int32_t first = 0; ///< record of the first of them
-    std::vector<std::uint32_t> const* ids = nullptr;
+    Places<Dim, T> places;
+    Binning<Dim> const& bins;
+    std::int32_t first; ///< record of the first of them
+    std::vector<std::uint32_t> const& ids;
 
     /// Records of them and of their images.
-    [[nodiscard]] std::size_t records() const { return bins ? places.size + bins->images().of.size() : 0; }
+    [[nodiscard]] std::size_t records() const { return places.size + bins.images().of.size(); }
     /// Which of them a record is.
     [[nodiscard]] std::size_t number_of(std::size_t record) const
     {
         const std::size_t k = record - std::size_t(first);
-        return k < places.size ? k : std::size_t(bins->images().of[k - places.size]);
+        return k < places.size ? k : std::size_t(bins.images().of[k - places.size]);
     }
 };
 
@@ -70,7 +72,7 @@ public:
         Binning<Dim> const& bins;
         int record; ///< length of a record of the source
         bool same;  ///< target and source are one species: a particle is not its own neighbour
-        Foreign<Dim, T> const* foreign = nullptr;
+        std::optional<Foreign<Dim, T>> foreign = {};
 
         [[nodiscard]] std::size_t records() const { return places.size + (foreign ? foreign->records() : 0); }
     };
@@ -382,7 +384,7 @@ private:
                 }
                 Binning<Dim> const* of = &source.bins;
                 std::int32_t k = exists ? of->find(cell) : -1;
-                if (k < 0 && exists && source.foreign) of = source.foreign->bins, k = of->find(cell);
+                if (k < 0 && exists && source.foreign) of = &source.foreign->bins, k = of->find(cell);
                 if (k < 0) {
                     for (int s = 0; s < stretch; ++s) first[b + s] = std::int32_t(near.count);
                 }

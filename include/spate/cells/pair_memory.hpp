@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace spate {
@@ -26,7 +27,7 @@ public:
     template <int Dim, class P, class Q, class Workers>
     void take(Lists<Dim> const& lists, std::vector<Array<T>> const& memory, P const& target, Binning<Dim> const& at,
               Q const& source, Binning<Dim> const& of, int W, Workers const& backend,
-              Foreign<Dim, T> const* foreign = nullptr)
+              std::optional<Foreign<Dim, T>> const& foreign = {})
     {
         // A place for each target: by its id, or by its number where ids are few among many.
         std::uint32_t largest = 0;
@@ -66,7 +67,7 @@ public:
     template <int Dim, class P, class Q, class Workers>
     void give(Lists<Dim> const& lists, std::vector<Array<T>>& memory, P const& target, Binning<Dim> const& at,
               Q const& source, Binning<Dim> const& of, int W, Workers const& backend,
-              Foreign<Dim, T> const* foreign = nullptr) const
+              std::optional<Foreign<Dim, T>> const& foreign = {}) const
     {
         memory.resize(at.cells());
         const auto first_of = index();
@@ -149,12 +150,13 @@ private:
     }
     /// The particle behind a record other than the sentinel: of an image the particle itself.
     template <int Dim, class Q>
-    static std::uint32_t id_of(std::size_t j, Q const& source, Binning<Dim> const& of, Foreign<Dim, T> const* foreign)
+    static std::uint32_t id_of(std::size_t j, Q const& source, Binning<Dim> const& of,
+                               std::optional<Foreign<Dim, T>> const& foreign)
     {
         const std::size_t n = source.size();
         if (j < n) return source.id()[j];
         if (!foreign || j < std::size_t(foreign->first)) return source.id()[std::size_t(of.images().of[j - n - 1])];
-        return (*foreign->ids)[foreign->number_of(j)];
+        return foreign->ids[foreign->number_of(j)];
     }
 
     std::vector<Pair> pairs_;

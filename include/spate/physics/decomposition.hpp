@@ -44,12 +44,12 @@ public:
     void use(Shares<Dim> shares) { shares_ = std::move(shares); }
     [[nodiscard]] Halo<Dim, T>& halo(int s) { return halo_[std::size_t(s)]; }
     /// Particles of a species that others own, as a source of lists: their records follow `records` of our own.
-    void place(int s, std::size_t records)
+    void place(int s, std::size_t records) { first_[std::size_t(s)] = std::int32_t(records); }
+    [[nodiscard]] Foreign<Dim, T> foreign(int s) const
     {
         auto const& h = halo_[std::size_t(s)];
-        foreign_[std::size_t(s)] = {h.places(), &h.bins(), std::int32_t(records), &h.ids()};
+        return {h.places(), h.bins(), first_[std::size_t(s)], h.ids()};
     }
-    [[nodiscard]] Foreign<Dim, T> const& foreign(int s) const { return foreign_[std::size_t(s)]; }
     [[nodiscard]] Halo<Dim, T> const& halo(int s) const { return halo_[std::size_t(s)]; }
     [[nodiscard]] RankReport const& report() const { return report_; }
     [[nodiscard]] RankReport& report() { return report_; }
@@ -340,7 +340,7 @@ private:
     R ranks_;
     Shares<Dim> shares_;
     std::array<Halo<Dim, T>, species> halo_;
-    std::array<Foreign<Dim, T>, species> foreign_{};
+    std::array<std::int32_t, species> first_{}; ///< record of the first of others
     std::array<std::size_t, species> owned_{};
     std::array<std::vector<std::vector<std::int32_t>>, species * species> waiting_;
     std::array<Air, species> air_;

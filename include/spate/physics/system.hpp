@@ -850,12 +850,12 @@ private:
         auto const& images = species<0>().bins.images();
         const std::size_t n = p.size();
         if constexpr (!alone) {
-            auto const& foreign = parts_.foreign(0);
+            const auto foreign = parts_.foreign(0);
             if (j >= std::size_t(foreign.first)) {
                 const std::size_t k = foreign.number_of(j), image = j - std::size_t(foreign.first);
                 auto r = packed_record(std::size_t(foreign.first) + k);
                 if (image != k)
-                    r[position] += shift_of(foreign.bins->images().code[image - foreign.places.size], grid_);
+                    r[position] += shift_of(foreign.bins.images().code[image - foreign.places.size], grid_);
                 return r;
             }
         }
@@ -1246,17 +1246,17 @@ private:
         }();
         constexpr auto stride = std::size_t(L::stride);
         PairT* const data = species<s>().packed.data.data();
-        auto const& foreign = parts_.foreign(s);
+        const auto foreign = parts_.foreign(s);
         parts_.send(
             s, offset.size(),
             [&](std::int32_t i, PairT* to) {
                 PairT const* const from = data + std::size_t(i) * stride;
                 for (std::size_t k = 0; k < offset.size(); ++k) to[k] = from[offset[k]];
             },
-            [this, data, &foreign](std::int32_t i, PairT const* from) {
+            [this, data, foreign](std::int32_t i, PairT const* from) {
                 PairT* const to = data + (std::size_t(foreign.first) + std::size_t(i)) * stride;
                 for (std::size_t k = 0; k < offset.size(); ++k) to[offset[k]] = from[k];
-                auto const& images = foreign.bins->images();
+                auto const& images = foreign.bins.images();
                 if (images.of.empty()) return;
                 for (auto g = images.first[std::size_t(i)]; g < images.first[std::size_t(i) + 1]; ++g) {
                     PairT* const image =
@@ -1351,10 +1351,10 @@ private:
         else return position;
     }();
     template <int q>
-    Foreign<dim, T> const* foreign() const
+    std::optional<Foreign<dim, T>> foreign() const
     {
-        if constexpr (alone) return nullptr;
-        else return &parts_.foreign(q);
+        if constexpr (alone) return {};
+        else return parts_.foreign(q);
     }
     template <int s, int q, Mask terms>
     auto source()
