@@ -9,7 +9,7 @@ usage: bash tools/setup.sh [--with PART]...
 
 Installs, as root or with sudo, the Debian packages that are missing for the library and for each PART:
   tests      GoogleTest, HDF5, libpng, Open MPI  examples   HDF5, libpng, CLI11, nlohmann-json, Open MPI
-  bench      Google Benchmark, matplotlib        clang      clang, its OpenMP and its sanitizers
+  bench      Google Benchmark, Open MPI, matplotlib  clang      clang, its OpenMP and its sanitizers
   tidy       clang-format and clang-tidy
 On another system it names the packages and stops with exit code 2. SPATE_SETUP=off skips it.
 END
@@ -20,7 +20,7 @@ declare -A packages=(
     [library]="g++ cmake ninja-build libeigen3-dev libxsimd-dev"
     [tests]="libgtest-dev libgmock-dev libhdf5-dev|libhdf5-openmpi-dev libpng-dev openmpi-bin libopenmpi-dev"
     [examples]="libhdf5-dev|libhdf5-openmpi-dev libpng-dev libcli11-dev nlohmann-json3-dev openmpi-bin libopenmpi-dev"
-    [bench]="libbenchmark-dev python3 python3-matplotlib python3-munkres|python3-scipy"
+    [bench]="libbenchmark-dev openmpi-bin libopenmpi-dev python3 python3-matplotlib python3-munkres|python3-scipy"
     [clang]="clang libomp-dev libclang-rt-14-dev"
     [tidy]="clang clang-format clang-tidy libomp-dev"
 )

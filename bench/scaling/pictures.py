@@ -125,9 +125,9 @@ def timeline(diaries, path, titles):
 def counts(series, path):
     """series: {name: [(ranks, {what: value})]} of counted ranks."""
     what = [
-        ("neighbours", "ranks that a rank sends to, mean (line) and most"),
-        ("values", "particles sent over particles owned, mean (line) and most of a rank"),
-        ("imbalance", "work of a rank: largest over mean"),
+        ("neighbours", "ranks that one sends to: mean (line), most"),
+        ("values", "particles sent over owned: mean (line), most"),
+        ("imbalance", "work: largest over mean"),
     ]
     figure, axes = plt.subplots(1, 3, figsize=(15, 4.6), layout="constrained")
     for axis, (key, title) in zip(axes, what):
