@@ -854,8 +854,7 @@ private:
             if (j >= std::size_t(foreign.first)) {
                 const std::size_t k = foreign.number_of(j), image = j - std::size_t(foreign.first);
                 auto r = packed_record(std::size_t(foreign.first) + k);
-                if (image != k)
-                    r[position] += shift_of(foreign.bins.images().code[image - foreign.places.size], grid_);
+                if (image != k) r[position] += shift_of(foreign.bins.images().code[image - foreign.places.size], grid_);
                 return r;
             }
         }
