@@ -870,13 +870,13 @@ private:
             if (t.dt < 1e-3 * first_dt_) stop_dt(t.dt);
         }
         free_dt_ = t.dt;
-        if (step_ == 0) advise(t.dt);
+        if (step_ == 0) advise(t.dt, e);
         if (time_ + t.dt * (1 + 1e-9) >= o.until) t.bound(o.until - time_, "end");
         if (!std::isfinite(time_ + t.dt)) stop_time(time_ + t.dt);
         dt_ = t.dt, criterion_ = t.criterion;
     }
     /// Warns where theory predicts growth at this step.
-    [[gnu::cold]] void advise(double dt)
+    [[gnu::cold]] void advise(double dt, Extremes const& e)
     {
         double spacing = 0;
         if constexpr (has_equation_of_state<P>) {
@@ -891,7 +891,8 @@ private:
             }
         }
         report_.stable = stable_step<I>(physics(), spacing, stiffness_, dt);
-        for (auto& warning : advice<I>(physics(), spacing, stiffness_, dt)) report_.warnings.push_back(warning);
+        for (auto& warning : advice<I>(physics(), spacing, stiffness_, dt, e.most_density / e.least_density))
+            report_.warnings.push_back(warning);
     }
     void after_step()
     {
