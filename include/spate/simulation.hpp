@@ -813,19 +813,25 @@ private:
             system_.rebuild(wide);
         }
         catch (IndexOverflow const& e) {
-            stop_index(e.facts());
+            StopFacts f = e.facts();
+            f.species = Engine::M::moves ? -1 : 0; // at rest, markers cannot be it
+            throw IndexOverflow(seen_now(f));
+        }
+        catch (NeighbourOverflow const& e) {
+            throw NeighbourOverflow(seen_now(e.facts()));
         }
     }
-    [[noreturn, gnu::cold]] void stop_index(StopFacts f) const
+    /// With the step and the velocity of the particle that sorting or listing has stopped at.
+    [[gnu::cold]] StopFacts seen_now(StopFacts f) const
     {
-        f.step = step_, f.time = time_, f.species = Engine::M::moves ? -1 : 0; // at rest, markers cannot be it
+        f.step = step_, f.time = time_;
         auto const& p = system_.mobile();
         const std::size_t i = detail::first_by_id(p, [&](std::size_t k) { return p.id()[k] == f.particle; });
         if (f.species == 0 && i < p.size()) {
             const StopFacts all = detail::facts_of(p, i);
             std::copy(std::begin(all.velocity), std::end(all.velocity), f.velocity);
         }
-        throw IndexOverflow(f);
+        return f;
     }
     [[gnu::cold]] void begin_run(RunOptions const& o)
     {

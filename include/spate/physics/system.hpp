@@ -1417,12 +1417,13 @@ private:
     /// Builds the lists of sorted particles, and gives them what was set aside of the pairs.
     void build_lists()
     {
-        const double range = physics_.interaction.range(), beyond = neighbours_.skin - neighbours_.closed_in();
         each_species([&](auto s) {
             auto build = [&](auto... sources) {
                 const std::array<typename Lists<dim>::template From<T>, sizeof...(sources)> from{sources...};
-                Lists<dim>::build(places<s()>(), species<s()>().bins, grid_, width<PairV>, neighbours_.window, range,
-                                  skins_.of(s()), beyond, backend_, from);
+                const typename Lists<dim>::template For<T> target{s(), places<s()>(), species<s()>().bins,
+                                                                  species<s()>().particles.id()};
+                Lists<dim>::build(target, grid_, width<PairV>, neighbours_, physics_.interaction.range(),
+                                  skins_.of(s()), backend_, from);
             };
             constexpr bool meets_0 = M::planner.meet(s(), 0), meets_1 = species_count == 2 && M::planner.meet(s(), 1);
             if constexpr (meets_0 && meets_1) build(from<s(), 0>(), from<s(), 1>());
