@@ -32,7 +32,8 @@ template <class... N>
 std::string dotted(N... n)
 {
     std::string s;
-    ((s += (s.empty() ? "" : ".") + std::to_string(n)), ...);
+    ((s += std::to_string(n), s += '.'), ...);
+    s.pop_back();
     return s;
 }
 
