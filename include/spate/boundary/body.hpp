@@ -71,6 +71,7 @@ public:
     double mass = 0;                ///< [kg], in the plane of a metre of it
     Point centre{};                 ///< of mass, at rest [m]
     Matrix<axes> inverse_inertia{}; ///< about the centre, of the body not turned [1/(kg m^2)]
+    Point load{};                   ///< a force that never changes [N]
     State state;
     Point acceleration{}; ///< [m/s^2]
     Axial torque{};       ///< about the centre [N m]
@@ -98,7 +99,7 @@ public:
     /// The sums of the forces on it, and of their moments about its centre, without weight.
     void push(Point const& force, Axial const& moment, Point const& g)
     {
-        acceleration = g + (1 / mass) * force;
+        acceleration = g + (1 / mass) * (force + load);
         torque = moment;
     }
     /// From a state with the velocity of now.

@@ -31,6 +31,7 @@ struct Floating {
     Spin spin{};                              ///< at the start [rad/s]
     std::optional<Vec<Dim, double>> centre{}; ///< of mass [m]; else that of the points
     std::optional<Inertia> inertia{}; ///< about the centre [kg m^2]; infinite: it does not turn; else of the points
+    Vec<Dim, double> load{};          ///< a force on the centre that never changes, beside gravity [N]
     BodyContact contact{};
 
     void check() const
@@ -89,6 +90,7 @@ template <int Dim>
     }
     if (f.inertia) I = *f.inertia;
     body.inverse_inertia = inverse(I);
+    body.load = f.load;
     body.state.velocity = f.velocity;
     body.state.angular_momentum = momentum_of(f.spin, I);
     return body;
