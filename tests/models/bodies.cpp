@@ -58,6 +58,11 @@ TEST(LongSinkingDisc, HasTheReynoldsNumberOfGlowinski) // 5 %: numerics V33
     const models::Case c("V33", "rho_s = 1.25, mu = 0.1", 20);
     c.at_most(reynolds, std::abs(sink(20, 1.25, 0.1, 6, 0.6) / 17.27 - 1), 0.05);
 }
+TEST(LongSinkingDisc, SinksFasterThanGlowinskisAtTheHigherReynoldsNumber) // 10 %: numerics V33
+{
+    const models::Case c("V33", "rho_s = 1.5, mu = 0.01", 20);
+    c.known_gap(reynolds, std::abs(sink(20, 1.5, 0.01, 12, 0.33) / 438.6 - 1), "V33 Reynolds number rho_s 1.5");
+}
 
 // ---- V35, V36
 constexpr double rho0 = 1000, dx = 0.02, gravity = 9.81, level = 0.4, breadth = 0.32,
