@@ -441,6 +441,10 @@ public:
             for (int c = 0; c < dim; ++c)
                 f(along_axis("lower corner of the box", c), box->lo[c]),
                     f(along_axis("upper corner of the box", c), box->hi[c]);
+        if constexpr (Engine::M::floats) {
+            auto const& bodies = system_.boundary().bodies();
+            for (int k = 0; k < bodies.count; ++k) f("mass of body " + std::to_string(k), bodies[k].mass);
+        }
         system_.each_species([&](auto k) {
             auto const& p = system_.template species<k()>().particles;
             for_each(p.uniform, [&]<class F>(F field) {
@@ -462,6 +466,7 @@ public:
         criterion_ = *words.insert(criterion).first;
         report_.warnings = std::move(warnings);
         stiffness_ = stiffness_of_all();
+        hold_bodies();
         if constexpr (Engine::M::moves) system_.boundary().move_to(time_);
         least_radius_ = least_radius();
         prepared_ = true, stopped_ = false, resumed_ = true;
@@ -842,6 +847,7 @@ private:
         resumed_ = false, cfl_ = o.cfl, fixed_dt_ = o.dt;
         if (step_ > 0) return;
         stiffness_ = stiffness_of_all();
+        hold_bodies();
         if (o.dt > 0) return;
         const TimeStep t = time_step(stiffness_, o.cfl, 0, std::sqrt(g_.squaredNorm()));
         require(std::isfinite(t.dt), "dt", o.dt, "above 0: the model has no criterion that bounds the step");
@@ -863,14 +869,25 @@ private:
             return x;
         }
     }
+    /// What bounds the step of bodies that float.
+    void hold_bodies()
+    {
+        if constexpr (Engine::M::floats) {
+            static_assert(has_equation_of_state<P>, "spate: a body floats in a fluid; add an equation of state");
+            auto const& eos = equation_of_state(physics());
+            body_rate_ = system_.boundary().body_rate(physics().interaction, eos.rho0, eos.c0, stiffness_.viscosity);
+        }
+    }
     void choose_dt(RunOptions const& o, Extremes const& e)
     {
         if (step_ == 0) begin_run(o);
         TimeStep t;
         if (o.dt > 0) t = {o.dt, "fixed"};
         else {
-            t = time_step(stiffness_, o.cfl, std::max(e.speed, e.wall_speed),
-                          std::max(e.acceleration, std::sqrt(g_.squaredNorm())));
+            double push = std::max(e.acceleration, std::sqrt(g_.squaredNorm()));
+            if constexpr (Engine::M::floats) push = std::max(push, system_.boundary().body_acceleration());
+            t = time_step(stiffness_, o.cfl, std::max(e.speed, e.wall_speed), push);
+            if constexpr (Engine::M::floats) t.bound(o.cfl / body_rate_, "body");
             if (step_ > 0) t.bound(1.1 * free_dt_, "growth");
             if (step_ == 0) first_dt_ = t.dt;
             if (t.dt < 1e-3 * first_dt_) stop_dt(t.dt);
@@ -899,6 +916,10 @@ private:
         report_.stable = stable_step<I>(physics(), spacing, stiffness_, dt);
         for (auto& warning : advice<I>(physics(), spacing, stiffness_, dt, e.most_density / e.least_density))
             report_.warnings.push_back(warning);
+        if constexpr (Engine::M::floats)
+            if (dt * body_rate_ > 1)
+                report_.warnings.push_back("dt = " + text(dt) + " s is more than a body of its mass bears, " +
+                                           text(1 / body_rate_) + " s: take a smaller dt");
     }
     void after_step()
     {
@@ -1153,7 +1174,8 @@ private:
     double least_radius_ = std::numeric_limits<double>::infinity(); ///< [m]
     std::vector<double> kept_dt_;                                   ///< of the steps since the kept state [s]
     std::int64_t kept_step_ = 0, kept_rebuild_ = -1;
-    double kept_time_ = 0; ///< [s]
+    double kept_time_ = 0;                                                                          ///< [s]
+    [[no_unique_address]] std::conditional_t<Engine::M::floats, double, std::tuple<>> body_rate_{}; ///< [1/s]
 };
 
 } // namespace spate

@@ -10,6 +10,7 @@
 #include "spate/boundary/bce.hpp"
 #include "spate/boundary/by_continuity.hpp"
 #include "spate/boundary/extrapolated.hpp"
+#include "spate/boundary/floating.hpp"
 #include "spate/boundary/motion.hpp"
 #include "spate/boundary/obstacle.hpp"
 #include "spate/boundary/open.hpp"

@@ -4,6 +4,7 @@
 /// a species of their own that others see and that sees others only.
 #pragma once
 
+#include "spate/boundary/afloat.hpp"
 #include "spate/boundary/parts.hpp"
 #include "spate/boundary/periodic.hpp"
 #include "spate/core/box.hpp"
@@ -34,12 +35,14 @@ class Bce {
 public:
     static constexpr bool markers = true;
     static constexpr bool moves = Wall::moves;                  ///< markers follow a law
+    static constexpr bool floats = Wall::floating > 0;          ///< some follow the forces on them
     static constexpr bool has_velocity = moves || Wall::slides; ///< they have velocities of their own
     /// Of the markers: no array.
     static constexpr auto uniform = Fields{mass} | detail::only_if<!has_velocity>(Fields{velocity});
     static constexpr auto state = State::fields | detail::only_if<has_velocity>(Fields{velocity}) |
                                   detail::only_if<moves>(Fields{acceleration, rest_position, part, build_position});
     static constexpr auto given = detail::only_if<moves>(Fields{acceleration});
+    static constexpr auto forces = detail::only_if<floats>(Fields{push}); ///< that bodies move by
 
     template <class... Options>
     [[gnu::cold]] Bce(Box<Dim> box, double spacing, State how, Options... options)
@@ -71,6 +74,12 @@ public:
             require(lid.velocity[axis] == 0, along_axis("lid velocity", axis), lid.velocity[axis],
                     "0 [m/s]: a lid slides in its own plane");
         });
+        if constexpr (floats) {
+            Vec<Dim, double> x{};
+            afloat_.weigh(parts_, spacing_, tie(),
+                          [&](auto const& f) { place_axis<Dim - 1>(0, x, true, [&](bool) { f(x); }); });
+            afloat_.turn(rigid_);
+        }
     }
     /// The terms of the physics as far as they do not see walls in a way of their own.
     template <class Terms>
@@ -87,9 +96,9 @@ public:
         if constexpr (Along::mirrors) {
             auto const& kernel = physics.interaction.kernel;
             auto seen = Along::at_wall(physics.terms, made, 1e-6 * kernel.sigma() * kernel.f(0.0));
-            return std::tuple_cat(std::move(made), std::move(seen));
+            return with_reactions(physics, std::tuple_cat(std::move(made), std::move(seen)));
         }
-        else return made;
+        else return with_reactions(physics, std::move(made));
     }
     template <int>
     [[nodiscard]] Edges<Dim> const& edges() const
@@ -167,12 +176,17 @@ public:
         each_obstacle([&](int part, auto const& o) {
             auto& mine = m[std::size_t(part)];
             if constexpr (requires { o.law(t); }) mine = o.law(t);
+            else if constexpr (detail::floats<std::remove_cvref_t<decltype(o)>>) mine = rigid_[std::size_t(part)];
             else mine = m[0];
         });
         return m;
     }
     /// From now on the walls are where they are at time t.
-    void move_to(double t) { rigid_ = motions(t); }
+    void move_to(double t)
+    {
+        if constexpr (floats) turn_bodies();
+        rigid_ = motions(t);
+    }
     /// The velocity of a marker within the plane of its face.
     [[nodiscard]] Vec<Dim, double> sliding(Vec<Dim, double> const& x0) const
     {
@@ -184,8 +198,48 @@ public:
         return v;
     }
 
+    // ---- walls that float
+    auto& bodies() requires(floats) { return afloat_.bodies(); }
+    auto const& bodies() const requires(floats) { return afloat_.bodies(); }
+    /// Adds the forces on markers first to last to those on their bodies.
+    void add_push(auto& sums, auto const& markers, std::size_t first, std::size_t last) const
+    {
+        afloat_.add_push(sums, markers, first, last, parts_, Surroundings<Dim, Motions>{box_, edges_, rigid_});
+    }
+    /// The bodies are where their states say.
+    void turn_bodies() { afloat_.turn(rigid_); }
+    /// ... and so are markers first to last. \param nearest  the same vector, less whole periods
+    void carry(auto& markers, std::size_t first, std::size_t last, auto const& nearest) const
+    {
+        afloat_.carry(markers, first, last, rigid_, nearest);
+    }
+    /// Largest acceleration of a marker of a body [m/s^2].
+    [[nodiscard]] double body_acceleration() const { return afloat_.acceleration(); }
+    /// 1/(largest step at C = 1) of the body that answers fastest [1/s].
+    [[gnu::cold]] [[nodiscard]] double body_rate(auto const& interaction, double rho0, double c0, double nu) const
+    {
+        return afloat_.rate(parts_, interaction, rho0, c0, nu, [&](auto const& f) { place(interaction.range(), f); });
+    }
+    /// f(name, number) for all that the motion of the bodies depends on.
+    template <class Self>
+    [[gnu::cold]] static void numbers_of(Self& self, auto const& f)
+    {
+        for (int k = 0; k < Wall::floating; ++k)
+            self.bodies()[k].each_number(
+                [&](std::string const& what, auto& value) { f("body " + std::to_string(k) + " " + what, value); });
+    }
+
 private:
     [[nodiscard]] double tie() const { return 1e-9 * spacing_; }
+    template <class P, class Made>
+    auto with_reactions([[maybe_unused]] P const& physics, Made made) const
+    {
+        if constexpr (floats) {
+            auto reactions = detail::reactions_of(std::tuple_cat(own(physics.terms), made));
+            return std::tuple_cat(std::move(made), std::move(reactions));
+        }
+        else return made;
+    }
     [[nodiscard]] double beyond_faces(Vec<Dim, double> const& x) const
     {
         double far = -std::numeric_limits<double>::infinity();
@@ -222,15 +276,7 @@ private:
     {
         if constexpr (detail::is_moving<O>) m = o.law(t);
     }
-    /// f(part, obstacle).
-    void each_obstacle(auto const& f) const
-    {
-        [[maybe_unused]] int part = 0;
-        auto one = [&]<class O>(O const& o) {
-            if constexpr (detail::is_obstacle<O>) f(++part, o);
-        };
-        std::apply([&](auto const&... o) { (one(o), ...); }, parts_);
-    }
+    void each_obstacle(auto const& f) const { detail::each_obstacle(parts_, f); }
     void each_lid(auto const& f) const
     {
         auto one = [&]<class O>(O const& o) {
@@ -246,6 +292,7 @@ private:
     int least_layers_ = 1;
     [[no_unique_address]] Parts parts_;
     Motions rigid_{};
+    [[no_unique_address]] AfloatIfAny<Dim, Parts> afloat_{};
 };
 template <int Dim, class State, class... Options>
 Bce(Box<Dim>, double, State, Options...) -> Bce<Dim, State, detail::PartsOf<Dim, Options...>>;

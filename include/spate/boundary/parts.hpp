@@ -3,6 +3,7 @@
 /// \brief The options of a wall of markers: which of them are parts of the wall, and what they say together.
 #pragma once
 
+#include "spate/boundary/floating.hpp"
 #include "spate/boundary/layers.hpp"
 #include "spate/boundary/lid.hpp"
 #include "spate/boundary/obstacle.hpp"
@@ -43,7 +44,14 @@ inline constexpr bool fits<Lid<Other>, Dim> = Other == Dim;
 template <class M, int Dim>
 inline constexpr bool fits<Moving<M>, Dim> = Motion<M, Dim>;
 template <class S, class M, int Dim>
-inline constexpr bool fits<Obstacle<S, M>, Dim> = Solid<S, Dim> && (std::same_as<M, Still> || Motion<M, Dim>);
+inline constexpr bool fits<Obstacle<S, M>, Dim> = Solid<S, Dim> &&
+                                                  (std::same_as<M, Still> || Motion<M, Dim> || is_floating<M>);
+template <class S, int Other, int Dim>
+inline constexpr bool fits<Obstacle<S, Floating<Other>>, Dim> = Solid<S, Dim>&& Other == Dim;
+template <class O>
+inline constexpr bool floats = false;
+template <class S, int Dim>
+inline constexpr bool floats<Obstacle<S, Floating<Dim>>> = true;
 
 /// The options that are parts of the wall, not edges.
 template <int Dim, class... O>
@@ -73,9 +81,18 @@ struct Wall<Dim, std::tuple<O...>> {
     static constexpr bool slides = (is_lid<O> || ...), moves = (has_law<O> || ...);
     static_assert(!(slides && free_slip),
                   "spate: a lid drives nothing where walls are free_slip; take no_slip, or no lid");
-    static constexpr int obstacles = (int(is_obstacle<O>) + ... + 0);
+    static constexpr int obstacles = (int(is_obstacle<O>) + ... + 0), floating = (int(floats<O>) + ... + 0);
     using Slip = std::conditional_t<no_slip, NoSlip, std::conditional_t<free_slip, FreeSlip, void>>;
 };
+/// f(part, obstacle) for each obstacle: 1, 2, ...
+void each_obstacle(auto const& parts, auto const& f)
+{
+    [[maybe_unused]] int part = 0;
+    auto one = [&]<class O>(O const& o) {
+        if constexpr (is_obstacle<O>) f(++part, o);
+    };
+    std::apply([&](auto const&... o) { (one(o), ...); }, parts);
+}
 template <bool Keep, class S>
 constexpr auto only_if(S set)
 {

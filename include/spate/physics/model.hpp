@@ -75,6 +75,11 @@ struct Model {
         if constexpr (requires { B::given; }) return B::given;
         else return Fields<>{};
     }();
+    /// Some markers belong to bodies that move by `forces`, fields of the markers.
+    static constexpr bool floats = []() {
+        if constexpr (requires { B::floats; }) return bool(B::floats);
+        else return false;
+    }();
     static constexpr int own_terms = int(std::tuple_size_v<typename P::Terms>);
     static constexpr int terms = int(std::tuple_size_v<Terms>);
     static constexpr int species = markers ? 2 : 1;
@@ -250,6 +255,7 @@ public:
         std::array<Mask, std::size_t(species)> wanted{};
         wanted[0] = rates_of<0>(Asked{});
         if constexpr (species == 2) wanted[1] = rates_of<1>(Asked{});
+        if constexpr (floats && Asked::template contains<Velocity>) wanted[1] |= mask(B::forces);
         return planner.plan(wanted);
     }
     /// The plan that brings what terms derive (pressure, ..., sums that are no rate) up to date.

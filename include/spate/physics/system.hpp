@@ -226,7 +226,9 @@ public:
         if (!(e.moved <= wrap_after_)) return true; // together, perhaps, but far from where it is wrapped to
         if (most <= skins_.least() * range) return false;
         if (!neighbours_.local || !std::isfinite(most)) return true;
-        return ranks().all(outrun(t, 2 * t2 * e.acceleration), agree::Or{});
+        double push = e.acceleration;
+        if constexpr (M::floats) push = std::max(push, boundary_.body_acceleration());
+        return ranks().all(outrun(t, 2 * t2 * push), agree::Or{});
     }
     /// The most by which a pair may have closed in at positions up to x + v t + a t2 [m].
     [[nodiscard]] double closing(Extremes const& e, double t, double t2) const
@@ -242,6 +244,7 @@ public:
         const double pair = apart + 2 * t2 * e.acceleration;
         double marker = M::markers ? e.moved + t * e.speed + t2 * e.acceleration : 0;
         if constexpr (M::moves) marker += e.wall_moved + t * e.wall_speed;
+        if constexpr (M::floats) marker += t2 * boundary_.body_acceleration();
         return pair > marker ? pair : marker;
     }
     /// Beyond this distance from the origin places are rounded by a hundredth of the length that forces vary over [m].
@@ -272,6 +275,7 @@ public:
         f("have_lists", self.have_lists_), f("kick_rates_current", self.kick_rates_);
         f("rebuilds", self.rebuilds_), f("evaluations", self.evaluations_);
         f("pairs_evaluated", self.pairs_evaluated_), f("memory_age", self.due_);
+        if constexpr (M::floats) B::numbers_of(self.boundary_, f);
     }
     /// The place of the patch that holds x.
     static Index<dim> place(Vec<dim, double> const& x, Grid<dim> const& grid) { return Skins<dim>::place(x, grid); }
@@ -364,12 +368,14 @@ public:
     void rates(Fields<F...> asked)
     {
         evaluate(asked, Carry{due_, !trial_, 1});
+        if constexpr (M::floats && Fields<F...>::template contains<Velocity>) push_bodies();
     }
     /// The rates with which a step of dt from the saved state is made: what terms keep of pairs comes along to its end.
     template <class... F>
     void rates(Fields<F...> asked, double dt)
     {
         evaluate(asked, Carry{due_, true, due_ > 0 ? dt / due_ : 1});
+        if constexpr (M::floats && Fields<F...>::template contains<Velocity>) push_bodies();
     }
     /// Brings what terms derive from the state (pressure, ...) up to date.
     void refresh()
@@ -437,6 +443,7 @@ public:
     /// Remembers all evolving fields, for restore().
     void keep()
     {
+        if constexpr (M::floats) boundary_.bodies().keep();
         each_species([&](auto s) {
             auto& x = species<s()>();
             for_each(M::template evolving<s()>(), [&](auto f) {
@@ -463,6 +470,7 @@ public:
                     for (auto& column : x.particles.column(f)) std::fill(column.begin(), column.end(), T(0));
             });
         });
+        if constexpr (M::floats) boundary_.bodies().restore(), boundary_.turn_bodies();
         kick_rates_ = false;
         return same;
     }
@@ -680,6 +688,8 @@ public:
                 }
             });
         });
+        if constexpr (M::floats)
+            if (ranks().rank() == 0) total += hash_of_bodies();
         return ranks().all(total, agree::Sum{});
     }
     /// What terms keep of the directed pairs s <- q, in the order of their ids; pairs of which it is zero are not there.
@@ -779,6 +789,46 @@ private:
             e.wall_speed = std::max(e.wall_speed, std::sqrt(speed2));
         });
         return e;
+    }
+    /// Sums the forces on bodies that float: their rates.
+    void push_bodies()
+    {
+        auto const& p = species<1>().particles;
+        using Sums = typename std::remove_cvref_t<decltype(boundary_.bodies())>::Sums;
+        Sums total{};
+        std::mutex lock;
+        const std::size_t n = counted<1>();
+        backend_.for_each((n + task - 1) / task, [&](std::size_t k) {
+            Sums mine{};
+            boundary_.add_push(mine, p, k * task, std::min(n, (k + 1) * task));
+            const std::lock_guard hold(lock);
+            for (std::size_t c = 0; c < mine.size(); ++c) total[c] += mine[c];
+        });
+        ranks().each(total, agree::Sum{});
+        boundary_.bodies().push(total, gravity_of(physics_));
+    }
+    /// Bodies by their rates, and their markers with them.
+    template <bool from_start, class... Sets>
+    void advance_bodies(double dt, Sets... sets)
+    {
+        (boundary_.bodies().template advance<from_start>(sets, dt), ...);
+        boundary_.turn_bodies();
+        auto nearest = [this](Vec<dim, double> x) {
+            for (int c = 0; c < dim; ++c)
+                if (grid_.periodic(c)) x[c] -= grid_.period(c) * std::round(x[c] / grid_.period(c));
+            return x;
+        };
+        stretches<1>([&](std::size_t first, std::size_t last) {
+            boundary_.carry(species<1>().particles, first, last, nearest);
+        });
+    }
+    [[gnu::cold]] [[nodiscard]] std::uint64_t hash_of_bodies() const
+    {
+        std::uint64_t h = 0;
+        auto copy = boundary_;
+        B::numbers_of(copy,
+                      [&](std::string const&, double value) { h = mix(h ^ std::bit_cast<std::uint64_t>(value)); });
+        return h;
     }
     using Interaction = typename M::Interaction;
     /// Whether there are as many particles as when the lists were built.
@@ -1381,6 +1431,7 @@ private:
                     (one(Sets{}), ...);
                 });
         });
+        if constexpr (M::floats) advance_bodies<from_start>(dt, Sets{}...);
     }
     template <bool from_start, int s, Field F>
     static void advance_field(auto& x, F f, std::size_t c, std::size_t first, std::size_t last, T dt)
