@@ -98,6 +98,7 @@ TEST(Advice, KnowsWithoutRunningWhatNoStepMakesStable)
     EXPECT_TRUE(unstable(RungeKutta2{}, PressureForce<2>{}));
     EXPECT_TRUE(unstable(ForwardEuler{}, PressureForce<2>{}, Gravity<2>{{0, -9.81}}));
     EXPECT_FALSE(unstable(RungeKutta2{}, Gravity<2>{{0, -9.81}})); // no pressure pushes: there is no sound
+    EXPECT_TRUE(unstable(RungeKutta2{}, GradientCorrection{}, CorrectedPressureForce{}));
     EXPECT_FALSE(unstable(RungeKutta2{}, PressureForce<2>{}, ArtificialViscosity{}));
     EXPECT_FALSE(unstable(RungeKutta2{}, PressureForce<2>{}, DensityDiffusion{}));
     EXPECT_FALSE(unstable(ForwardEuler{}, PressureForce<2>{}, LaminarViscosity{}));

@@ -22,16 +22,15 @@ inline constexpr bool damps = is_dashpot<T> || requires(T t)
     t.acoustic_damping(1.0, 1.0, 1.0, 1.0);
 };
 template <class T>
-inline constexpr bool pushes_by_pressure =
-    decltype(reads_i<T>() |
-             reads_j<T>())::template contains<Pressure>&& decltype(adds<T>())::template contains<Acceleration>;
+inline constexpr bool sums_pressure = decltype(reads_i<T>() | reads_j<T>())::template contains<Pressure> && //
+                                      !std::is_same_v<decltype(adds<T>()), Fields<>>;
 } // namespace detail
 
 /// Whether no step is stable, which is known before anything runs: the integrator makes each oscillation grow, the model
 /// has one (sound, or the spring of a contact), and no term of it damps. For a static_assert over a scene's own types.
 template <class P, class I>
 inline constexpr bool unstable_at_every_step = []<class... T>(std::tuple<T...> const*) {
-    const bool sound = has_equation_of_state<P> && (detail::pushes_by_pressure<T> || ...);
+    const bool sound = has_equation_of_state<P> && (detail::sums_pressure<T> || ...);
     return I::imaginary_limit == 0 && (sound || (is_spring<T> || ...)) && !(detail::damps<T> || ...);
 }(static_cast<typename P::Terms const*>(nullptr));
 
