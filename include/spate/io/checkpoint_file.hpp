@@ -110,7 +110,8 @@ inline void outline_checkpoint(Hdf5Outline const& file, State const& state, Stre
         in_folder(name, [&, t = text](hid_t folder, std::string const& rest) { file.text(folder, rest, t); });
     for (auto const& [name, table] : state.tables) {
         const auto keyed = stretches.find(key_of(name));
-        const std::optional<std::uint64_t> rows = keyed == stretches.end() ? std::nullopt : std::optional(keyed->second.total);
+        const std::optional<std::uint64_t> rows =
+            keyed == stretches.end() ? std::nullopt : std::optional(keyed->second.total);
         auto put = [&, t = std::cref(table)](hid_t folder, std::string const& rest) {
             std::visit(
                 [&]<class T>(std::vector<T> const& values) {
@@ -138,7 +139,8 @@ inline void write_checkpoint(AnyRanks const& ranks, std::filesystem::path const&
         const std::uint64_t values = of == stretches.end() ? table.size() : of->second.total * table.columns;
         room.rows += values * std::visit([]<class T>(std::vector<T> const&) { return sizeof(T); }, table.values);
     }
-    detail::SharedFile shared(ranks, file, room, [&](auto& outline) { detail::outline_checkpoint(outline, part, stretches); });
+    detail::SharedFile shared(ranks, file, room,
+                              [&](auto& outline) { detail::outline_checkpoint(outline, part, stretches); });
     if (!stretches.empty())
         shared.fill([&](detail::Hdf5Rows& rows) {
             for (auto const& [name, table] : part.tables) {
@@ -151,8 +153,7 @@ inline void write_checkpoint(AnyRanks const& ranks, std::filesystem::path const&
             }
         });
     const auto [size, blocks] = shared.sum(detail::checkpoint_block, detail::checksum_of_block);
-    const auto header =
-        detail::header_of(detail::checkpoint_version, size, size - detail::checkpoint_header + blocks);
+    const auto header = detail::header_of(detail::checkpoint_version, size, size - detail::checkpoint_header + blocks);
     shared.finish(std::as_bytes(std::span(header)));
 }
 /// Of a whole state, which this process has.

@@ -23,8 +23,8 @@ inline std::vector<std::byte> empty_hdf5(std::filesystem::path const& named)
     const Hdf5Silence silence;
     const Hdf5Properties access(hdf5_check(H5Pcreate(H5P_FILE_ACCESS), named, "H5Pcreate"));
     hdf5_check(H5Pset_fapl_core(access, 1 << 16, false), named, "H5Pset_fapl_core");
-    const Hdf5File file(
-        hdf5_check(H5Fcreate((named.string() + ".core").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), named, "H5Fcreate"));
+    const Hdf5File file(hdf5_check(H5Fcreate((named.string() + ".core").c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access),
+                                   named, "H5Fcreate"));
     hdf5_check(H5Fflush(file, H5F_SCOPE_GLOBAL), named, "H5Fflush");
     const auto size = hdf5_check(H5Fget_file_image(file, nullptr, 0), named, "H5Fget_file_image");
     std::vector<std::byte> image(static_cast<std::size_t>(size));

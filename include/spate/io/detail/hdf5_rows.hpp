@@ -36,8 +36,7 @@ class Hdf5Rows {
 public:
     /// \param communicator  of MPI, by its Fortran handle, if the file is to be opened by all of it
     Hdf5Rows(std::filesystem::path const& file, std::optional<int> communicator)
-        : access_(hdf5_access()), transfer_(H5Pcreate(H5P_DATASET_XFER)),
-          file_(open(file.c_str(), communicator))
+        : access_(hdf5_access()), transfer_(H5Pcreate(H5P_DATASET_XFER)), file_(open(file.c_str(), communicator))
     {}
     /// Where HDF5 has failed first, empty if nowhere.
     [[nodiscard]] std::string const& failed() const { return failed_; }

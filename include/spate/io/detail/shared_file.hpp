@@ -77,7 +77,8 @@ public:
     struct Sum {
         std::uint64_t size, blocks;
     };
-    [[nodiscard]] Sum sum(std::size_t block, std::function<std::uint64_t(std::uint64_t, std::span<std::byte const>)> const& f)
+    [[nodiscard]] Sum sum(std::size_t block,
+                          std::function<std::uint64_t(std::uint64_t, std::span<std::byte const>)> const& f)
     {
         std::vector<std::uint64_t> all{temporary_ ? temporary_->size() : 0};
         ranks_.sum(all);

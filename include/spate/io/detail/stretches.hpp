@@ -129,9 +129,14 @@ private:
             parcels.back().message.put(picked(rows, columns, which));
         }
         std::vector<T> mine;
-        for (auto& p : ranks_.scatter(std::move(parcels))) {
-            const auto some = p.message.template take_all<T>();
-            mine.insert(mine.end(), some.begin(), some.end());
+        parcels = ranks_.scatter(std::move(parcels));
+        std::size_t bytes = 0;
+        for (auto const& p : parcels) bytes += p.message.bytes().size();
+        mine.reserve(bytes / sizeof(T));
+        for (auto& p : parcels) {
+            const auto before = mine.size();
+            mine.resize(before + std::size_t(p.message.template take<std::uint64_t>()));
+            p.message.take(std::span(mine).subspan(before));
         }
         return mine;
     }
