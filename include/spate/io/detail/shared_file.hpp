@@ -57,8 +57,7 @@ public:
         std::string failed;
         auto open_and_write = [&] {
             Hdf5Rows rows(Temporary::name_of(file_), communicator);
-            write(rows);
-            rows.flush();
+            if (!communicator || !ranks_.any(!rows.failed().empty())) write(rows), rows.flush();
             failed = rows.failed();
         };
         if (communicator) {
