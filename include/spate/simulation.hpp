@@ -1006,8 +1006,11 @@ private:
     /// Pairs that are too near.
     [[gnu::cold]] void look_at_start()
     {
-        if constexpr (Engine::any_pairs && Engine::M::planner.meet(0, 0))
-            together(system_.ranks(), [&] { look_at_pairs(system_, watch_.overlap, step_, time_, report_.warnings); });
+        if constexpr (Engine::any_pairs && Engine::M::planner.meet(0, 0)) {
+            const auto worst = deepest_pair(system_, watch_.overlap);
+            together(system_.ranks(),
+                     [&] { look_at_pairs(system_, worst, watch_.overlap, step_, time_, report_.warnings); });
+        }
     }
     [[gnu::cold]] [[nodiscard]] double least_radius() const
     {

@@ -637,6 +637,35 @@ public:
             if (j >= std::size_t(parts_.foreign(0).first)) return n + 1 + parts_.foreign(0).number_of(j);
         return j < n ? j : j - n - 1 < of.size() ? std::size_t(of[j - n - 1]) : n;
     }
+    /// What a look at pairs asks of a mobile particle.
+    struct Near {
+        Vec<dim, double> x; ///< [m]
+        double radius;      ///< 0 if it has none  [m]
+        std::uint32_t id;
+    };
+    /// Others' particles as they are now, by number; all ranks call it.
+    [[nodiscard]] std::vector<Near> others() const;
+    /// Who is behind a record other than the sentinel, at the place of the image that meets. \param others  as above
+    [[nodiscard, gnu::cold]] Near near(std::size_t j, [[maybe_unused]] std::vector<Near> const& others) const
+    {
+        auto const& p = mobile();
+        const std::size_t n = p.size();
+        auto moved = [&](Near one, auto const& images, std::size_t image) {
+            one.x += shift_of(images.code[image], grid_);
+            return one;
+        };
+        if constexpr (!alone) {
+            const auto foreign = parts_.foreign(0);
+            if (j >= std::size_t(foreign.first)) {
+                const std::size_t k = foreign.number_of(j), record = j - std::size_t(foreign.first);
+                return record == k ? others[k] : moved(others[k], foreign.bins.images(), record - foreign.places.size);
+            }
+        }
+        auto const& images = species<0>().bins.images();
+        const std::size_t i = j < n ? j : std::size_t(images.of[j - n - 1]);
+        const Near one{p.at(position, i), radius_at<double>(i), p.id()[i]};
+        return j < n ? one : moved(one, images, j - n - 1);
+    }
     /// Bytes of all that is kept for the particles: columns, records, lists, bins.
     [[nodiscard, gnu::cold]] std::size_t bytes() const
     {
