@@ -15,7 +15,6 @@ using namespace spate;
 using At = Vec<2, double>;
 
 constexpr double rho0 = 1000, dx = 0.02, gravity = 9.81;
-const At g{0, -gravity};
 
 double length(auto const& v) { return std::sqrt(v.squaredNorm()); }
 
