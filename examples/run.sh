@@ -141,7 +141,9 @@ set(definitions$definitions)"
 }
 build_it()
 {
-    bash "$root/tools/setup.sh" --with examples || return
+    local parts=(--with examples)
+    [[ ${value[--backend]-} != mpi ]] || parts+=(--with mpi)
+    bash "$root/tools/setup.sh" "${parts[@]}" || return
     ask_for_it
     local log=$build/$composition.log
     [[ -x $binary ]] || echo "run.sh: building $composition" >&2

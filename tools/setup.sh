@@ -8,9 +8,11 @@ usage()
 usage: bash tools/setup.sh [--with PART]...
 
 Installs, as root or with sudo, the Debian packages that are missing for the library and for each PART:
-  tests      GoogleTest, HDF5, libpng, Open MPI  examples   HDF5, libpng, CLI11, nlohmann-json, Open MPI
-  bench      Google Benchmark, Open MPI, matplotlib  clang      clang, its OpenMP and its sanitizers
+  tests      GoogleTest, HDF5, libpng, and h5py and VTK to read files with
+  examples   HDF5, libpng, CLI11, nlohmann-json  mpi        Open MPI, HDF5 for it
+  bench      Google Benchmark, matplotlib        clang      clang, its OpenMP and its sanitizers
   tidy       clang-format and clang-tidy
+With tests and bench comes mpi.
 On another system it names the packages and stops with exit code 2. SPATE_SETUP=off skips it.
 END
 }
@@ -18,9 +20,10 @@ END
 # One entry a package; a|b means that either will do, and a is installed if neither is there.
 declare -A packages=(
     [library]="g++ cmake ninja-build libeigen3-dev libxsimd-dev"
-    [tests]="libgtest-dev libgmock-dev libhdf5-dev|libhdf5-openmpi-dev libpng-dev openmpi-bin libopenmpi-dev"
-    [examples]="libhdf5-dev|libhdf5-openmpi-dev libpng-dev libcli11-dev nlohmann-json3-dev openmpi-bin libopenmpi-dev"
-    [bench]="libbenchmark-dev openmpi-bin libopenmpi-dev python3 python3-matplotlib python3-munkres|python3-scipy"
+    [tests]="libgtest-dev libgmock-dev libhdf5-dev|libhdf5-openmpi-dev libpng-dev python3 python3-h5py-serial|python3-h5py-mpi python3-vtk9"
+    [examples]="libhdf5-dev|libhdf5-openmpi-dev libpng-dev libcli11-dev nlohmann-json3-dev"
+    [mpi]="openmpi-bin libopenmpi-dev libhdf5-openmpi-dev"
+    [bench]="libbenchmark-dev python3 python3-matplotlib python3-munkres|python3-scipy"
     [clang]="clang libomp-dev libclang-rt-14-dev"
     [tidy]="clang clang-format clang-tidy libomp-dev"
 )
@@ -31,10 +34,11 @@ while (($#)); do
         --with)
             part=${2-}
             [[ -n $part && $part != library && -n ${packages[$part]-} ]] || {
-                echo "setup.sh: --with $part: choose tests, examples, bench, clang or tidy" >&2
+                echo "setup.sh: --with $part: choose tests, examples, mpi, bench, clang or tidy" >&2
                 exit 2
             }
             parts+=("$part")
+            [[ $part != tests && $part != bench ]] || parts+=(mpi)
             shift 2
             ;;
         --help | -h) usage; exit 0 ;;

@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""Time to an error beside PySPH (Debian package python3-pysph): vortices of Taylor & Green, Re = 100, t = 1, from a lattice jittered
-by a fifth, error L1 of speed, both in one run, turn by turn.
+"""Time to an error beside PySPH (Debian package python3-pysph), both in one run, turn by turn:
+    vortices  of Taylor & Green, Re = 100, t = 1, from a lattice jittered by a fifth, error L1 of speed; n is L/dx
+    column    of water twice as high as wide, front to T = 3.4 against Martin & Moyce (1952), rms of Z/Z_data - 1
+              after the best shift of time between 0.05 and 0.3; n is H/dx; both codes in a tank of 8 a
 
     cmake --preset bench && cmake --build --preset bench --target bench_work_precision
-    /usr/bin/python3 bench/peers/pysph_error.py [--levels 25,50,100] [--repeats 3] [--schemes tvf,edac]
+    /usr/bin/python3 bench/peers/pysph_error.py [--case column] [--levels 25,50,100] [--repeats 3] [--schemes tvf,edac]
 
-PySPH runs its own example (pysph.examples.taylor_green) with its own schemes, each at its own time step; its generated code is
-compiled with -O3 -march=native -ffast-math, ours without the last. One thread each. CPU seconds of the steps only: what each does before
-the first step, compiling included, is left out. Of repeats the least counts."""
+PySPH runs its own examples (pysph.examples.taylor_green, dam_break_2d) with its own schemes, each at its own time step; its generated
+code is compiled with -O3 -march=native -ffast-math, ours without the last. One thread each. CPU seconds of the steps only: what each
+does before the first step, compiling included, and looking at the front are left out. Of repeats the least counts."""
 import argparse
 import csv
 import json
@@ -23,14 +25,31 @@ from pathlib import Path
 root = Path(__file__).resolve().parent.parent.parent
 
 
-def one(arguments):
-    """A run of PySPH in this process: prints a line of JSON."""
+class Clock:
+    """CPU seconds of the steps of a run: begin() when one is over and looked at, end() when the next one is."""
+
+    def __init__(self):
+        self.steps, self.seconds, self.since = 0, 0.0, None
+
+    def end(self):
+        if self.since is not None:  # the first step compiles
+            self.seconds += time.process_time() - self.since
+        self.steps += 1
+
+    def begin(self):
+        self.since = time.process_time()
+
+    def total(self):
+        return self.seconds * self.steps / (self.steps - 1)
+
+
+def vortices(arguments):
     import numpy as np
     from pysph.examples import taylor_green
 
-    class Vortices(taylor_green.TaylorGreen):
-        stamps = []
+    clock = Clock()
 
+    class Vortices(taylor_green.TaylorGreen):
         def consume_user_options(self):
             super().consume_user_options()
             self.tf = 1.0
@@ -40,7 +59,8 @@ def one(arguments):
             self.scheme.configure_solver(kernel=taylor_green.QuinticSpline(dim=2), tf=self.tf, dt=self.dt, pfreq=10**9)
 
         def post_step(self, solver):
-            self.stamps.append(time.process_time())
+            clock.end()
+            clock.begin()
 
     app = Vortices()
     app.run(["--disable-output", "--max-steps", "1000000", *arguments])
@@ -48,19 +68,88 @@ def one(arguments):
     x, y, u, v = fluid.get("x", "y", "u", "v", only_real_particles=True)
     u_e, v_e, _ = taylor_green.exact_solution(1.0, -8 * np.pi**2 / 100, app.solver.t, x, y)
     was, exact = np.sqrt(u**2 + v**2), np.sqrt(u_e**2 + v_e**2)
-    steps = len(app.stamps)
-    cpu = (app.stamps[-1] - app.stamps[0]) * steps / (steps - 1)
-    error = float(np.abs(was - exact).sum() / exact.sum())
-    print("RESULT " + json.dumps({"N": len(x), "steps": steps, "t": app.solver.t, "cpu_s": cpu, "error": error}))
+    return clock, len(x), float(np.abs(was - exact).sum() / exact.sum())
 
 
-def peer(scheme, n):
-    arguments = [f"--scheme={scheme.split('+')[0]}", f"--nx={n}", "--re=100", "--perturb=0.4"]  # of [0, 0.4) dx
+def error_of_front(front):
+    """Of (T, Z) pairs: as tests/models/series.hpp."""
+    import numpy as np
+
+    with open(root / "tests/data/martin_moyce_1952_n2_2_front.csv") as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    data = np.array([(float(r["T"]), float(r["Z"])) for r in rows if float(r["T"]) <= 3.4])
+    T, Z = np.array(front).T
+    return min(float(np.sqrt(np.mean((np.interp(data[:, 0] - s, T, Z) / data[:, 1] - 1) ** 2))) for s in np.arange(0.05, 0.3005, 0.001))
+
+
+def column(arguments):
+    import numpy as np
+    from pysph.examples import dam_break_2d
+
+    clock, front = Clock(), []
+    unit = math.sqrt(dam_break_2d.fluid_column_width / (2 * dam_break_2d.g))
+
+    class Column(dam_break_2d.DamBreak2D):
+        def create_particles(self):  # the example's own has mass and h of one spacing, whatever --dx, and a tank of 4 a
+            dx, rho = self.dx, dam_break_2d.ro
+            x, y = dx * np.mgrid[1 : round(dam_break_2d.fluid_column_width / dx) + 1, 1 : round(dam_break_2d.fluid_column_height / dx) + 1]
+            wall_x, wall_y = dam_break_2d.get_2d_tank(dx=dx, length=8.0, height=4.0, base_center=[4.0, 0.0], num_layers=4)
+            of = {"h": self.h, "m": rho * dx * dx, "rho": rho}
+            fluid = dam_break_2d.get_particle_array(name="fluid", x=x.ravel(), y=y.ravel(), **of)
+            wall = dam_break_2d.get_particle_array(name="boundary", x=wall_x, y=wall_y, **of)
+            self.scheme.setup_properties([fluid, wall])
+            self.kernel_corrections(fluid, wall)
+            return [fluid, wall]
+
+        def configure_scheme(self):
+            super().configure_scheme()
+            solver = self.scheme.get_solver()
+            solver.set_final_time(3.5 * unit)
+            solver.set_print_freq(10**9)
+            solver.set_output_at_times([])
+
+        def look(self, T):
+            if front and T < front[-1][0] + 0.02:
+                return
+            x = np.sort(self.particles[0].get("x", only_real_particles=True))
+            if not front:
+                self.left = x[0] - self.dx / 2
+            front.append((T, (x[math.ceil(0.995 * len(x)) - 1] + self.dx / 2 - self.left) / dam_break_2d.fluid_column_width))
+
+        def pre_step(self, solver):
+            if not front:
+                self.look(0.0)
+
+        def post_step(self, solver):
+            clock.end()
+            self.look(solver.t / unit)
+            clock.begin()
+
+        def post_process(self, *of):
+            pass
+
+    app = Column()
+    app.run(["--disable-output", "--max-steps", "1000000", *arguments])
+    return clock, len(app.particles[0].get("x", only_real_particles=True)), error_of_front(front)
+
+
+def one(case, arguments):
+    """A run of PySPH in this process: prints a line of JSON."""
+    clock, N, error = {"vortices": vortices, "column": column}[case](arguments)
+    print("RESULT " + json.dumps({"N": N, "steps": clock.steps, "cpu_s": clock.total(), "error": error}))
+
+
+def peer(case, scheme, n):
+    arguments = [f"--scheme={scheme.split('+')[0]}"]
+    if case == "column":
+        arguments += [f"--dx={2 / n}"]
+    else:
+        arguments += [f"--nx={n}", "--re=100", "--perturb=0.4"]  # of [0, 0.4) dx
     if "+shift" in scheme:
         arguments += ["--shift-freq=1", "--shift-kind=fickian", "--shift-parameter=4"]
     environment = dict(os.environ, OMP_NUM_THREADS="1", CFLAGS="-O3 -march=native -ffast-math")
     with tempfile.TemporaryDirectory() as scratch:
-        command = [sys.executable, __file__, "--one", *arguments, "-d", scratch + "/out"]
+        command = [sys.executable, __file__, "--one", case, *arguments, "-d", scratch + "/out"]
         done = subprocess.run(command, capture_output=True, text=True, env=environment, cwd=scratch)
     lines = [line for line in done.stdout.splitlines() if line.startswith("RESULT ")]
     if not lines:
@@ -69,42 +158,53 @@ def peer(scheme, n):
 
 
 def ours(executable, family, n):
-    command = [executable, "--family", str(family["family"]), "--n", str(n), "--cfl", str(family["C"])]
+    command = [executable, "--family", str(family["family"]), "--n", str(n), *family["setting"]]
     done = subprocess.run(command, check=True, capture_output=True, text=True)
     run = json.loads(done.stdout)
-    return {"N": run["N"], "steps": run["steps"], "cpu_s": run["cpu_s"], "error": run["errors"]["L1_speed"]}
+    return {"N": run["N"], "steps": run["steps"], "cpu_s": run["cpu_s"], "error": run["errors"][family["error"]]}
 
 
 def time_to(error, ladder):
-    """By interpolation of logarithms between levels; (seconds, how)."""
-    points = sorted((run["error"], run["cpu_s"]) for run in ladder)[::-1]
+    """Where a ladder first comes below an error, by interpolation of logarithms between its levels; (seconds, how)."""
+    points = [(run["error"], run["cpu_s"]) for run in ladder]
     if points[0][0] <= error:
         return points[0][1], "at most"
     for (e0, t0), (e1, t1) in zip(points, points[1:]):
-        if e1 <= error <= e0:
+        if e1 <= error < e0:
             return t0 * (t1 / t0) ** (math.log(e0 / error) / math.log(e0 / e1)), ""
     return None, "not reached"
 
 
 def main():
-    if "--one" in sys.argv:
-        sys.argv.remove("--one")
-        return one(sys.argv[1:])
+    if sys.argv[1:2] == ["--one"]:
+        return one(sys.argv[2], sys.argv[3:])
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    options.add_argument("--levels", default="25,50,100")
-    options.add_argument("--schemes", default="tvf,edac", help="of PySPH: tvf, edac, gtvf, wcsph, wcsph+shift, ...")
+    options.add_argument("--case", default="vortices", choices=("vortices", "column"))
+    options.add_argument("--levels", help="default: 25,50,100 of vortices, 20,40,80 of the column")
+    options.add_argument("--schemes", help="of PySPH: tvf, edac, gtvf, wcsph, aha, wcsph+shift, ... (tvf,edac; wcsph,aha,edac)")
     options.add_argument("--repeats", type=int, default=3)
     options.add_argument("--executable", type=Path, default=root / "build/bench/bench/work_precision/bench_work_precision")
     options.add_argument("--into", type=Path, default=root / "build" / "bench" / "peers")
     args = options.parse_args()
+    of_column = args.case == "column"
+    args.levels = args.levels or ("20,40,80" if of_column else "25,50,100")
+    args.schemes = args.schemes or ("wcsph,aha,edac" if of_column else "tvf,edac")
     listed = subprocess.run([args.executable, "--list"], check=True, capture_output=True, text=True).stdout
+    if of_column:
+        name, formulation, error = "dam_break", "sigma2+diffusion+adami", "front"
+        setting = ["--cfl", "0.2", "--length", "0.6", "--until", "3.5"]
+        kernels = {("cubic_spline", "runge_kutta2"), ("cubic_spline", "symplectic_euler")}
+    else:
+        name, formulation, error = "taylor_green", "sigma2+diffusion+shifting", "L1_speed"
+        setting = ["--cfl", "0.25"]
+        kernels = {("quintic_spline", "symplectic_euler"), ("wendland_c2", "symplectic_euler")}
     mine = []
     for family in map(json.loads, listed.splitlines()):
-        usual = (family["case"], family["formulation"], family["precision"]) == ("taylor_green", "sigma2+diffusion+shifting", "double")
-        if usual and (family["kernel"], family["integrator"]) in {("quintic_spline", "symplectic_euler"), ("wendland_c2", "symplectic_euler")}:
-            mine.append(family | {"C": 0.25})
-    runners = {f"PySPH {s}": (lambda n, s=s: peer(s, n)) for s in args.schemes.split(",")}
-    runners |= {f"spate {f['kernel']} {f['h_dx']:g}": (lambda n, f=f: ours(args.executable, f, n)) for f in mine}
+        usual = (family["case"], family["formulation"], family["precision"]) == (name, formulation, "double")
+        if usual and (family["kernel"], family["integrator"]) in kernels:
+            mine.append(family | {"setting": setting, "error": error})
+    runners = {f"PySPH {s}": (lambda n, s=s: peer(args.case, s, n)) for s in args.schemes.split(",")}
+    runners |= {f"spate {f['kernel']} {f['h_dx']:g} {f['integrator']}": (lambda n, f=f: ours(args.executable, f, n)) for f in mine}
     ladders = {name: [] for name in runners}
     for n in map(int, args.levels.split(",")):
         best = {}
@@ -115,9 +215,9 @@ def main():
                     best[name] = now
         for name, run in best.items():
             ladders[name].append(run)
-            print(f"{name:24} n {n:4}: {run['steps']:6} steps, {run['cpu_s']:9.3f} s, error {100 * run['error']:.3f} %", flush=True)
+            print(f"{name:40} n {n:4}: {run['steps']:6} steps, {run['cpu_s']:9.3f} s, error {100 * run['error']:.3f} %", flush=True)
     args.into.mkdir(parents=True, exist_ok=True)
-    with open(args.into / "pysph_error.csv", "w", newline="") as file:
+    with open(args.into / f"pysph_error_{args.case}.csv", "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(("code", "n", "N", "steps", "cpu_s", "error"))
         writer.writerows((name, r["n"], r["N"], r["steps"], f"{r['cpu_s']:.5g}", f"{r['error']:.6g}") for name, ladder in ladders.items() for r in ladder)

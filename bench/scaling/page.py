@@ -280,8 +280,7 @@ Three kinds of numbers are on this page, and each table says which:
 
 Counted: {ranks_1e5} ranks of 1e5, {ranks_1e4} of 1e4 particles. The last column but two is extrapolated: what a rank loses by itself and with its
 neighbours grows with log P as among the counted ranks, reductions and cuts follow from the network. Efficiency is the mean
-work of a rank over the time of a step. For the counts of 1,150 ranks and of the larger load of the next section it was
-not counted which cells wait for their own node alone; there all that wait for anybody are taken as not hidden.
+work of a rank over the time of a step.
 
 Where a step goes, MODELLED on the first network:
 
@@ -313,8 +312,8 @@ Scene `big` in developed flow, 40 steps from t = 0.30 s, balance on, processes o
 {measured}
 
 Constants are from one rank with --cell 2. The aims are 0.6 of one rank's time for two, and 15 % between model and measurement; the
-table says what was reached. Each row is the least of several runs, and both cores were shared with other work in all of them: two ranks, which need both, suffer
-more from that than one.
+table says what was reached. Each row is the least of several runs on two cores of a shared host: two ranks, which need both, suffer
+more from others' work than one.
 
 ## A step on two processes
 

@@ -97,8 +97,8 @@ void build_lists(System const& s, Lists<System::dim>& lists)
     constexpr int record = std::remove_cvref_t<decltype(x.packed)>::L::stride;
     const auto places = Places<System::dim, T>::of(x.particles);
     const std::array from{typename Of::template From<T>{lists, places, x.bins, record, true}};
-    Of::build(places, x.bins, s.grid(), width<typename System::PairV>, s.neighbours().window,
-              s.physics().interaction.range(), s.template skins<0>(), 0, s.backend(), from);
+    Of::template build<T>({0, places, x.bins, x.particles.id()}, s.grid(), width<typename System::PairV>,
+                          s.neighbours(), s.physics().interaction.range(), s.template skins<0>(), s.backend(), from);
 }
 
 /// Entries of all lists, sentinels too.

@@ -67,6 +67,12 @@ int main(int argc, char** argv)
         }
         return 0;
     }
+    if (argc < 3 || argc % 2 == 0) {
+        std::fprintf(stderr,
+                     "usage: bench_work_precision --list | --family K [--n N] [--cfl C] [--NAME VALUE]...\n"
+                     "NAME: sound reynolds length until jitter omega_dt skin cell threads at_most (family.hpp)\n");
+        return 2;
+    }
     try {
         std::map<std::string, double> given;
         for (int k = 1; k + 1 < argc; k += 2) given[std::string(argv[k]).substr(2)] = std::stod(argv[k + 1]);

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Which points are measured for which figure (numerics D.2); the last number of a Point is a guess of its CPU seconds."""
 from measure import Point
-from names import DAM, SHIFTED
+from names import CORRECTED, DAM, SHIFTED
 
 OTHER_RE = (50, 200, 400)  # of the vortices: what the error does with Re, for advise
 
@@ -13,6 +13,9 @@ def taylor_green(machine, paper):
     levels = (25, 50, 100, 200) if paper else (25, 50, 100)
     for f in machine.find("taylor_green"):
         points += [Point("W1", "resolution", f, 8 * (n / 100) ** 3, n=n) for n in levels]
+    for f in machine.find("taylor_green", formulation=CORRECTED):
+        points += [Point("W1", "reynolds", f, 12 * (n / 100) ** 3, n=n, reynolds=re) for n in levels[:2] for re in OTHER_RE]
+        points += [Point("W1", "sound", f, 48 * (n / 100) ** 4, n=n, sound=10 * n / 25) for n in levels]
     for f in machine.find("taylor_green", precision="double", formulation=SHIFTED):
         if f["kernel"] != "cubic_spline" and f["integrator"] == "symplectic_euler":
             points += [Point("W1", "reynolds", f, 8 * (n / 100) ** 3, n=n, reynolds=re)

@@ -4,7 +4,20 @@
 
 namespace work_precision {
 namespace {
+/// Gradients corrected for how particles lie, and shifting that takes velocity and density along.
+template <class K>
+void add_corrected(std::string const& kernel, double h_dx)
+{
+    auto fluid = [](double h, double c0, double nu, Shifting const& shifting) {
+        return wcsph(K{.h = h}, LinearEos{.rho0 = 1, .c0 = c0}, GradientCorrection{}, CorrectedContinuity{},
+                     MolteniColagrossi{.delta = 0.1}, CorrectedPressureForce{}, CorrectedViscosity{.mu = nu},
+                     ConsistentShifting{.mach = shifting.mach, .cfl = shifting.cfl});
+    };
+    add_vortices<SymplecticEuler, Double>(kernel, h_dx, "corrected+diffusion+shifting", fluid);
+}
 const bool added = [] {
+    add_corrected<QuinticSpline<2>>("quintic_spline", 1);
+    add_corrected<WendlandC2<2>>("wendland_c2", 2);
     const std::string quintic = "quintic_spline";
     add_shifted<1, QuinticSpline<2>, SymplecticEuler, Double>(quintic, 1);
     add_vortices<SymplecticEuler, Double>(

@@ -23,7 +23,7 @@ public:
     Series(Series&&) noexcept;
     ~Series();
 
-    std::filesystem::path write(spate::io::Cloud const& cloud);
+    std::filesystem::path write(spate::io::AnyRanks const& ranks, spate::io::Cloud cloud);
     std::vector<double> const& times() const;
     void go_on_from(std::vector<double> const& times);
 

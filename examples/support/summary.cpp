@@ -9,12 +9,13 @@
 
 #include <CLI/Version.hpp>
 #include <Eigen/Core>
-#include <hdf5.h>
 #include <nlohmann/json.hpp>
 #include <png.h>
 #include <xsimd/config/xsimd_config.hpp>
 
 #include <spate/io/detail/replace_file.hpp>
+
+#include "support/hdf5_version.hpp"
 
 #ifndef SPATE_VERSION
 #define SPATE_VERSION "unknown"
@@ -32,18 +33,17 @@ template <class... N>
 std::string dotted(N... n)
 {
     std::string s;
-    ((s += (s.empty() ? "" : ".") + std::to_string(n)), ...);
+    ((s += std::to_string(n), s += '.'), ...);
+    s.pop_back();
     return s;
 }
 
 Json versions()
 {
-    unsigned major = 0, minor = 0, release = 0;
-    H5get_libversion(&major, &minor, &release);
     return {{"spate", SPATE_VERSION},
             {"eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
             {"xsimd", dotted(XSIMD_VERSION_MAJOR, XSIMD_VERSION_MINOR, XSIMD_VERSION_PATCH)},
-            {"hdf5", dotted(major, minor, release)},
+            {"hdf5", hdf5_version()},
             {"libpng", png_get_libpng_ver(nullptr)},
             {"cli11", CLI11_VERSION},
             {"nlohmann_json",

@@ -818,19 +818,25 @@ private:
             system_.rebuild(wide);
         }
         catch (IndexOverflow const& e) {
-            stop_index(e.facts());
+            StopFacts f = e.facts();
+            f.species = Engine::M::moves ? -1 : 0; // at rest, markers cannot be it
+            throw IndexOverflow(seen_now(f));
+        }
+        catch (NeighbourOverflow const& e) {
+            throw NeighbourOverflow(seen_now(e.facts()));
         }
     }
-    [[noreturn, gnu::cold]] void stop_index(StopFacts f) const
+    /// With the step and the velocity of the particle that sorting or listing has stopped at.
+    [[gnu::cold]] StopFacts seen_now(StopFacts f) const
     {
-        f.step = step_, f.time = time_, f.species = Engine::M::moves ? -1 : 0; // at rest, markers cannot be it
+        f.step = step_, f.time = time_;
         auto const& p = system_.mobile();
         const std::size_t i = detail::first_by_id(p, [&](std::size_t k) { return p.id()[k] == f.particle; });
         if (f.species == 0 && i < p.size()) {
             const StopFacts all = detail::facts_of(p, i);
             std::copy(std::begin(all.velocity), std::end(all.velocity), f.velocity);
         }
-        throw IndexOverflow(f);
+        return f;
     }
     [[gnu::cold]] void begin_run(RunOptions const& o)
     {
@@ -887,13 +893,13 @@ private:
             if (t.dt < 1e-3 * first_dt_) stop_dt(t.dt);
         }
         free_dt_ = t.dt;
-        if (step_ == 0) advise(t.dt);
+        if (step_ == 0) advise(t.dt, e);
         if (time_ + t.dt * (1 + 1e-9) >= o.until) t.bound(o.until - time_, "end");
         if (!std::isfinite(time_ + t.dt)) stop_time(time_ + t.dt);
         dt_ = t.dt, criterion_ = t.criterion;
     }
     /// Warns where theory predicts growth at this step.
-    [[gnu::cold]] void advise(double dt)
+    [[gnu::cold]] void advise(double dt, Extremes const& e)
     {
         double spacing = 0;
         if constexpr (has_equation_of_state<P>) {
@@ -908,7 +914,8 @@ private:
             }
         }
         report_.stable = stable_step<I>(physics(), spacing, stiffness_, dt);
-        for (auto& warning : advice<I>(physics(), spacing, stiffness_, dt)) report_.warnings.push_back(warning);
+        for (auto& warning : advice<I>(physics(), spacing, stiffness_, dt, e.most_density / e.least_density))
+            report_.warnings.push_back(warning);
         if constexpr (Engine::M::floats)
             if (dt * body_rate_ > 1)
                 report_.warnings.push_back("dt = " + text(dt) + " s is more than a body of its mass bears, " +
@@ -999,8 +1006,11 @@ private:
     /// Pairs that are too near.
     [[gnu::cold]] void look_at_start()
     {
-        if constexpr (Engine::any_pairs && Engine::M::planner.meet(0, 0))
-            together(system_.ranks(), [&] { look_at_pairs(system_, watch_.overlap, step_, time_, report_.warnings); });
+        if constexpr (Engine::any_pairs && Engine::M::planner.meet(0, 0)) {
+            const auto worst = deepest_pair(system_, watch_.overlap);
+            together(system_.ranks(),
+                     [&] { look_at_pairs(system_, worst, watch_.overlap, step_, time_, report_.warnings); });
+        }
     }
     [[gnu::cold]] [[nodiscard]] double least_radius() const
     {

@@ -3,6 +3,8 @@
 #include "spate/backend/virtual_ranks.hpp"
 #include "spate/spate.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <string>
@@ -28,11 +30,20 @@ void tank(auto backend, auto const& f)
     sim.run({.steps = 3});
     f(sim);
 }
+/// A grain, of its own size if the scene has such.
+void add(auto& sim, Point const& x, double size)
+{
+    const std::size_t i = sim.add(x);
+    auto& p = sim.particles();
+    using Grains = std::remove_reference_t<decltype(p)>;
+    if constexpr (decltype(Grains::fields)::template contains<Radius>) p.put(mass, i, m), p.put(radius, i, size);
+}
 /// f(scene) for discs at rest on a wide lattice in a periodic box, before their first step.
+template <class I = ForwardEuler>
 void crowd(auto backend, auto const& f)
 {
-    Simulation sim(dem<2>({.mass = m, .radius = r}, LinearSpring{.k = k}), ForwardEuler{},
-                   Periodic(Box<2>{{}, {{1, 1}}}), backend);
+    Simulation sim(dem<2>({.mass = m, .radius = r}, LinearSpring{.k = k}), I{}, Periodic(Box<2>{{}, {{1, 1}}}),
+                   backend);
     for (int i = 0; i < 400; ++i) sim.add({(i % 20 + 0.5) / 20, (i / 20 + 0.5) / 20});
     f(sim);
 }
@@ -78,13 +89,18 @@ End end_of(F const& run)
     }
     return end;
 }
-void expect_the_same(std::string const& name, auto const& scene, RunOptions const& o, auto const& hand)
+constexpr auto nothing_more = [](auto&) {};
+/// \param after  is called with the scene that has stopped
+template <class After = decltype(nothing_more)>
+void expect_the_same(std::string const& name, auto const& scene, RunOptions const& o, auto const& hand,
+                     After const& after = {})
 {
     auto run = [&](auto backend) {
         End end;
         scene(backend, [&](auto& sim) {
             hand(sim);
             end = end_of([&] { sim.run(o); });
+            after(sim);
         });
         return end;
     };
@@ -149,10 +165,68 @@ TEST(StopsOnRanks, OfGrainsAreThoseOfOne)
         sim.add({0.05, 0.05}, {1, 0});
         sim.add({0.08, 0.05}, {-1, 0});
     });
-    expect_the_same("OverlapTooDeep", a_crowd, by_criteria, [](auto& sim) { // both on one rank
+    expect_the_same("OverlapTooDeep", a_crowd, by_criteria, [](auto& sim) {
         sim.add({0.05, 0.05});
         sim.add({0.05 + 1.5 * r, 0.05});
     });
+    const auto looks_ahead = [](auto backend, auto const& f) { crowd<Leapfrog>(backend, f); };
+    for (double way : {0.7, 0.9}) // of each, far apart, in a step, over the radius
+        expect_the_same("SkinOutrun", looks_ahead, {.steps = 3, .dt = 1e-4}, [way](auto& sim) {
+            sim.add({0.1, 0.5}, {way * r / 1e-4, 0});
+            sim.add({0.9, 0.5}, {-way * r / 1e-4, 0});
+        });
+}
+/// f(scene) for grains of two sizes on a wide lattice.
+void sizes(auto backend, auto const& f)
+{
+    Simulation sim(dem<2>(Mixture{.largest = r}, LinearSpring{.k = k}), ForwardEuler{}, Periodic(Box<2>{{}, {{1, 1}}}),
+                   backend);
+    for (int i = 0; i < 400; ++i) add(sim, {(i % 20 + 0.5) / 20, (i / 20 + 0.5) / 20}, i % 3 == 0 ? 0.5 * r : r);
+    f(sim);
+}
+/// Two more grains, one in the other by 0.4 of the radius of the smaller, at each of many places along a line through the box;
+/// and two that are less deep. The line crosses borders between ranks, and the face where the box goes on.
+void expect_the_deepest_pair(auto const& scene, double small)
+{
+    int across = 0; // pairs of which two ranks have one each
+    for (int at = 0; at < 80; ++at) {
+        const double x = 0.0125 * at, y = std::fmod(x + r + 0.6 * small, 1.0);
+        const bool small_first = at % 2 == 0; // has the lower id
+        int owner[2] = {-1, -1};
+        auto hand = [&](auto& sim) {
+            add(sim, {small_first ? x : y, 0.5}, small_first ? small : r);
+            add(sim, {small_first ? y : x, 0.5}, small_first ? r : small);
+            add(sim, {std::fmod(x + 0.4, 1.0), 0.5}, r);
+            add(sim, {std::fmod(x + 0.4 + 1.7 * r, 1.0), 0.5}, r);
+        };
+        expect_the_same("OverlapTooDeep", scene, by_criteria, hand, [&](auto& sim) {
+            for (std::uint32_t id : {400u, 401u})
+                of(sim, id, [&](auto&, std::size_t) { owner[id - 400] = sim.system().ranks().rank(); });
+        });
+        across += owner[0] != owner[1];
+    }
+    EXPECT_GE(across, 2); // the line goes through the shares of more than one
+}
+TEST(StopsOnRanks, OfThePairThatIsDeepestAreThoseOfOne)
+{
+    expect_the_deepest_pair(a_crowd, r);
+    expect_the_deepest_pair([](auto backend, auto const& f) { sizes(backend, f); }, 0.5 * r);
+}
+// Of smoothed particles it is a warning, which all ranks give.
+TEST(StopsOnRanks, AreWarningsOfWaterOfWhichTwoAreAtOnePlace)
+{
+    auto told = [](auto backend) {
+        auto water = wcsph(CubicSpline<2>{.h = 0.024}, Tait{.rho0 = 1000, .c0 = 20}, Continuity<2>{},
+                           PressureForce<2>{}, ArtificialViscosity{.alpha = 0.1});
+        Simulation sim(water, SymplecticEuler{}, Periodic(Box<2>{{}, {{0.4, 0.4}}}), backend);
+        sim.fill(Box<2>{{}, {{0.4, 0.4}}}, 0.02);
+        sim.add({0.05, 0.11});
+        sim.run({.steps = 1});
+        return sim.report().warnings;
+    };
+    const auto one = told(Serial{});
+    EXPECT_EQ(std::count_if(one.begin(), one.end(), [](auto& w) { return w.find("at one place") != w.npos; }), 1);
+    VirtualRanks(3).run([&](auto rank) { EXPECT_EQ(told(OnRank{rank, Serial{}, 2, Balance{}}), one); });
 }
 
 } // namespace

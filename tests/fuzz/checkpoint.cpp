@@ -6,6 +6,11 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <unistd.h>
 
 namespace {
 
@@ -87,10 +92,12 @@ extern "C" int LLVMFuzzerTestOneInput(std::uint8_t const* data, std::size_t size
     static auto tank = little_tank();
     static const io::State good = io::state_of(tank);
     static const auto file = [] {
-        auto content = io::detail::bytes_of("fuzz.h5", good);
-        const auto header = io::detail::header_of(1, 512 + content.size(), io::detail::checksum(content));
-        const auto bytes = std::as_bytes(std::span(header));
-        content.insert(content.begin(), bytes.begin(), bytes.end());
+        const auto path = std::filesystem::temp_directory_path() / ("spate_fuzz_" + std::to_string(::getpid()) + ".h5");
+        io::write_checkpoint(path, good);
+        std::vector<std::byte> content(std::filesystem::file_size(path));
+        std::ifstream(path, std::ios::binary)
+            .read(reinterpret_cast<char*>(content.data()), std::streamsize(content.size()));
+        std::filesystem::remove(path);
         return content;
     }();
     if (size == 0) return 0;

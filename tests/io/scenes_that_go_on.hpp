@@ -6,6 +6,9 @@
 #include "spate/io/resume.hpp"
 #include "spate/io/state_of.hpp"
 
+#include <functional>
+#include <tuple>
+
 #include <gtest/gtest.h>
 
 namespace going_on {
@@ -16,8 +19,7 @@ struct Column {
     static constexpr std::int64_t steps = 800, rebuilds = 20;
     static auto scene(auto backend) { return ranked::column(backend); }
     static void run(auto& sim, std::int64_t n) { sim.run({.steps = n, .cfl = 0.2}); }
-    static io::State state(auto& sim) { return io::state_of(sim); }
-    static void resume(auto& sim, io::State const& state) { io::resume(sim, state); }
+    static auto outputs() { return std::tuple<>(); }
 };
 struct Hopper {
     static constexpr std::int64_t steps = 1500, rebuilds = 100; // each pour rebuilds
@@ -25,8 +27,7 @@ struct Hopper {
     decltype(ranked::hopper_pour()) pour = ranked::hopper_pour();
     decltype(ranked::hopper_outlet()) outlet = ranked::hopper_outlet();
     void run(auto& sim, std::int64_t n) { sim.run({.steps = n, .dt = 2e-4}, pour, outlet); }
-    io::State state(auto& sim) { return io::state_of(sim, pour, outlet); }
-    void resume(auto& sim, io::State const& state) { io::resume(sim, state, pour, outlet); }
+    auto outputs() { return std::tie(pour, outlet); }
 };
 
 /// What a run was like at its end, on rank 0 with its state.
@@ -36,13 +37,21 @@ struct End {
     double time = 0, entered = 0, left = 0;
     io::State state;
 };
-/// n steps of a scene, from its start or from a state.
+template <class Scene, class... Output>
+io::ThisScene<Scene, Output...> any(Scene& scene, std::tuple<Output&...> outputs)
+{
+    return {scene, outputs};
+}
+/// n steps of a scene, from its start or from a state. \param keep  called with the io::AnyScene at the end
 template <class Case>
-End run(auto backend, std::int64_t n, io::State const* from = nullptr)
+End run(auto backend, std::int64_t n, io::State const* from = nullptr,
+        std::function<void(io::AnyScene&)> const& keep = nullptr)
 {
     Case outputs;
     auto sim = Case::scene(backend);
-    if (from) outputs.resume(sim, *from);
+    auto this_scene = any(sim, outputs.outputs());
+    io::AnyScene& scene = this_scene;
+    if (from) io::resume(scene, *from);
     outputs.run(sim, n);
     End end;
     end.hash = sim.state_hash(), end.time = sim.time();
@@ -50,7 +59,8 @@ End run(auto backend, std::int64_t n, io::State const* from = nullptr)
     end.entered = sim.exchanged().entered.energy, end.left = sim.exchanged().left.energy;
     if constexpr (requires { sim.system().parts().report(); })
         end.moved_cells = sim.system().ranks().all(sim.system().parts().report().moved_cells, agree::Sum{});
-    end.state = outputs.state(sim);
+    if (keep) keep(scene);
+    end.state = io::state_of(scene);
     return end;
 }
 /// Names of the tables and texts in which two states differ, but for what clocks have measured.

@@ -2,12 +2,14 @@
 // A little water in a tank, and a folder that is gone after the test: for the tests of outputs.
 #pragma once
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <spate/spate.hpp>
@@ -26,6 +28,28 @@ auto scene(Backend backend = {})
     tank.fill(Box<2>{{0, 0}, {0.5, 0.5}}, dx, hydrostatic);
     return tank;
 }
+
+/// Lets files grow to `bytes` only, as a full disk would.
+class SmallDisk {
+public:
+    explicit SmallDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN))
+    {
+        getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit small{bytes, before_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &small);
+    }
+    SmallDisk(SmallDisk const&) = delete;
+    SmallDisk& operator=(SmallDisk const&) = delete;
+    ~SmallDisk()
+    {
+        setrlimit(RLIMIT_FSIZE, &before_);
+        std::signal(SIGXFSZ, handler_);
+    }
+
+private:
+    rlimit before_{};
+    void (*handler_)(int);
+};
 
 class InFolder : public testing::Test {
 protected:

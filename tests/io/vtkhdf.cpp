@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "spate/io/vtkhdf.hpp"
 
+#include "io/small_tank.hpp"
+
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -13,7 +14,6 @@
 
 #include <gtest/gtest.h>
 #include <hdf5.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 namespace {
@@ -268,34 +268,12 @@ TEST_F(Vtkhdf, ADirectoryInPlaceOfTheFileIsAnOutputError)
     expect_output_error(directory / "a.hdf", "move what is in the way");
 }
 
-/// Lets files grow to `bytes` only, as a full disk would.
-class SmallDisk {
-public:
-    explicit SmallDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN))
-    {
-        getrlimit(RLIMIT_FSIZE, &before_);
-        const rlimit small{bytes, before_.rlim_max};
-        setrlimit(RLIMIT_FSIZE, &small);
-    }
-    SmallDisk(SmallDisk const&) = delete;
-    SmallDisk& operator=(SmallDisk const&) = delete;
-    ~SmallDisk()
-    {
-        setrlimit(RLIMIT_FSIZE, &before_);
-        std::signal(SIGXFSZ, handler_);
-    }
-
-private:
-    rlimit before_{};
-    void (*handler_)(int);
-};
-
 TEST_F(Vtkhdf, TheEarlierFileSurvivesAFailedWrite)
 {
     write_vtkhdf(directory / "a.hdf", line_of(10));
     const std::string before = content(directory / "a.hdf");
     {
-        const SmallDisk disk(4096);
+        const small_tank::SmallDisk disk(4096);
         EXPECT_THROW(write_vtkhdf(directory / "a.hdf", line_of(5000)), spate::OutputError);
     }
     EXPECT_EQ(content(directory / "a.hdf"), before);
@@ -364,7 +342,7 @@ TEST_F(Vtkhdf, SeriesDoesNotCountAFailedSnapshot)
     series.write(line_of(3));
     const std::string before = content(directory / "dam.hdf.series");
     {
-        const SmallDisk disk(4096);
+        const small_tank::SmallDisk disk(4096);
         EXPECT_THROW(series.write(line_of(5000)), spate::OutputError);
     }
     EXPECT_EQ(content(directory / "dam.hdf.series"), before);

@@ -29,6 +29,17 @@ auto internal_flow(double dx, double rho0, double nu, double fastest, Term... te
     return internal_flow_at<Dim>(10, dx, rho0, nu, fastest, term...);
 }
 
+/// The same for flows without walls, with gradients and viscosity corrected for how particles lie, and shifting that takes
+/// velocity and density along; Wendland C2 at h = 2 dx.
+inline auto corrected_flow_at(double sound, double dx, double rho0, double nu, double fastest)
+{
+    using namespace spate;
+    const double c0 = sound * fastest, h = 2 * dx, courant = std::min(0.25, 0.125 * c0 * h / nu);
+    return wcsph(WendlandC2<2>{.h = h}, LinearEos{.rho0 = rho0, .c0 = c0}, GradientCorrection{}, CorrectedContinuity{},
+                 MolteniColagrossi{.delta = 0.1}, CorrectedPressureForce{}, CorrectedViscosity{.mu = rho0 * nu},
+                 ConsistentShifting{.mach = fastest / c0, .cfl = 6 * courant});
+}
+
 /// The slope of the error over two halvings of the spacing.
 inline double order(double coarse, double fine) { return std::log2(coarse / fine) / 2; }
 

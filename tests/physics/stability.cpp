@@ -87,6 +87,33 @@ TEST(Advice, KnowsTheMarginOfTheFirstStep)
     grains.run({.steps = 1});
     EXPECT_NEAR(grains.report().stable.dt / grains.dt(), 50 / std::numbers::pi, 1e-9); // 2 / omega over pi / (25 omega)
 }
+// Forward Euler and the midpoint rule leave no stretch of the imaginary axis stable, so what oscillates has to be damped.
+TEST(Advice, KnowsWithoutRunningWhatNoStepMakesStable)
+{
+    auto unstable = [](auto integrator, auto const&... term) {
+        using P =
+            decltype(wcsph(CubicSpline<2>{.h = 0.1}, LinearEos{.rho0 = 1000, .c0 = 10}, Continuity<2>{}, term...));
+        return unstable_at_every_step<P, decltype(integrator)>;
+    };
+    EXPECT_TRUE(unstable(RungeKutta2{}, PressureForce<2>{}));
+    EXPECT_TRUE(unstable(ForwardEuler{}, PressureForce<2>{}, Gravity<2>{{0, -9.81}}));
+    EXPECT_FALSE(unstable(RungeKutta2{}, Gravity<2>{{0, -9.81}})); // no pressure pushes: there is no sound
+    EXPECT_TRUE(unstable(RungeKutta2{}, GradientCorrection{}, CorrectedPressureForce{}));
+    EXPECT_FALSE(unstable(RungeKutta2{}, PressureForce<2>{}, ArtificialViscosity{}));
+    EXPECT_FALSE(unstable(RungeKutta2{}, PressureForce<2>{}, DensityDiffusion{}));
+    EXPECT_FALSE(unstable(ForwardEuler{}, PressureForce<2>{}, LaminarViscosity{}));
+    EXPECT_FALSE(unstable(Leapfrog{}, PressureForce<2>{}));
+    EXPECT_FALSE(unstable(SymplecticEuler{}, PressureForce<2>{}));
+
+    const Grain grain{.mass = 0.1, .radius = 0.01};
+    using Elastic = decltype(dem<2>(grain, LinearSpring{.k = 1e5}));
+    using Damped = decltype(dem<2>(grain, LinearSpring{.k = 1e5}, Dashpot{.e = 0.9}));
+    EXPECT_TRUE((unstable_at_every_step<Elastic, ForwardEuler>));
+    EXPECT_FALSE((unstable_at_every_step<Damped, ForwardEuler>));
+    EXPECT_FALSE((unstable_at_every_step<Elastic, SymplecticEuler>));
+
+    EXPECT_NE(warnings(RungeKutta2{}, 0.0, 0.25)[0].find("take a smaller cfl"), std::string::npos);
+}
 template <class I>
 std::vector<std::string> contact_warnings(I integrator, double dt)
 {
@@ -99,7 +126,9 @@ std::vector<std::string> contact_warnings(I integrator, double dt)
 TEST(Advice, WarnsOfContactsThatGrowOrAreUnderResolved)
 {
     const double contact_time = 2.2214415e-3; // pi sqrt(m / 2k)
-    EXPECT_EQ(contact_warnings(ForwardEuler{}, contact_time / 100).size(), 1u);
+    const auto grows = contact_warnings(ForwardEuler{}, contact_time / 100);
+    ASSERT_EQ(grows.size(), 1u);
+    EXPECT_NE(grows[0].find("no dt is stable"), std::string::npos);
     EXPECT_TRUE(contact_warnings(SymplecticEuler{}, contact_time / 11).empty());
     const auto w = contact_warnings(SymplecticEuler{}, contact_time / 9);
     ASSERT_EQ(w.size(), 1u);

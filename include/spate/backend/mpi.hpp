@@ -30,6 +30,8 @@ public:
     MpiRanks() : rank_(session().rank), count_(session().count) {}
     [[nodiscard]] int rank() const { return rank_; }
     [[nodiscard]] int count() const { return count_; }
+    /// By its Fortran handle, for libraries that know MPI.
+    [[nodiscard]] int communicator() const { return MPI_Comm_c2f(session().world); }
 
     template <class T, class Merge>
     [[nodiscard]] T all(T mine, Merge const& merge) const

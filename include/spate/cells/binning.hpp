@@ -36,6 +36,16 @@ struct Places {
     }
 };
 
+/// Who and where a particle is, for a stop.
+template <int Dim, class T>
+[[gnu::cold]] StopFacts facts(Places<Dim, T> const& places, std::vector<std::uint32_t> const& ids, std::size_t i)
+{
+    StopFacts f;
+    f.particle = ids[i];
+    for (int c = 0; c < Dim; ++c) f.position[c] = double(places.x[std::size_t(c)][i]);
+    return f;
+}
+
 template <int Dim>
 class Binning {
 public:
@@ -122,7 +132,12 @@ private:
                 in_cell = in_cell * grid.bins_of_cell(c) + (bin - cell[std::size_t(c)] * grid.bins_of_cell(c));
             }
             key[i] = packed(cell);
-            if (key[i] == overflow) throw IndexOverflow(facts(places, id, i));
+            if (key[i] == overflow) {
+                StopFacts f = facts(places, id, i);
+                f.quantity = "the cell index of its position";
+                f.limit = double(1 << (bits - 1)), f.value = std::numeric_limits<double>::infinity();
+                throw IndexOverflow(f);
+            }
             local[i] = in_cell;
         }
         find_cells(key);
@@ -211,18 +226,6 @@ private:
             }
             images_.first.push_back(std::int32_t(images_.of.size()));
         }
-    }
-    template <class T>
-    [[gnu::cold]] static StopFacts facts(Places<Dim, T> const& places, std::vector<std::uint32_t> const& id,
-                                         std::size_t i)
-    {
-        StopFacts f;
-        f.particle = id[i];
-        for (int c = 0; c < Dim; ++c) f.position[c] = double(places.x[std::size_t(c)][i]);
-        f.quantity = "the cell index of its position";
-        f.limit = double(1 << (bits - 1));
-        f.value = std::numeric_limits<double>::infinity();
-        return f;
     }
 
     int bins_of_cell_ = 1;

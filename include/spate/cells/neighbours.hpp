@@ -6,6 +6,7 @@
 
 #include "spate/cells/skins.hpp"
 
+#include <new>
 #include <optional>
 
 namespace spate {
@@ -18,6 +19,7 @@ struct Neighbours {
     int finer = 4;      ///< bins in a range along x [-]
     bool local = false; ///< skin and trigger are thinner where particles move alike; see Skins
     int window = 16;    ///< targets within which those of like list length share a block; changes no bit
+    int most = 65536;   ///< neighbours of a particle in one species: more is a clump, at which a run stops
 
     void check() const
     {
@@ -27,6 +29,7 @@ struct Neighbours {
                 "0, or above 0 and at most skin");
         require(window >= 1 && window <= 4096, "neighbours.window", window, "1 to 4096 targets");
         require(finer >= 1 && finer <= 16, "neighbours.finer", finer, "1 to 16");
+        require(most >= 1, "neighbours.most", most, "1 or above");
     }
     [[nodiscard]] double bin_edge() const { return bins > 0 ? bins : 1 + skin; }
     [[nodiscard]] double closed_in() const { return trigger > 0 ? trigger : skin; }
@@ -64,6 +67,14 @@ struct Foreign {
 template <int Dim>
 class Lists {
 public:
+    /// Whom lists are for.
+    template <class T>
+    struct For {
+        int species;
+        Places<Dim, T> places;
+        Binning<Dim> const& bins;
+        std::vector<std::uint32_t> const& ids;
+    };
     /// One source of the lists of a target: where they go, and whom they list.
     template <class T>
     struct From {
@@ -77,17 +88,22 @@ public:
         [[nodiscard]] std::size_t records() const { return places.size + (foreign ? foreign->records() : 0); }
     };
     /// Builds the lists of a target over all its sources (at most two) together: their blocks hold the same targets.
-    /// \param W  targets in a block    \param window  see Neighbours
-    /// \param range  [m]    \param beyond  reach beyond range and skin, as a fraction of the range
+    /// \param W  targets in a block    \param range  [m]
+    /// Throws NeighbourOverflow for a particle that has too many neighbours, or where they need more memory than there is.
     template <class T, class Workers>
-    static void build(Places<Dim, T> const& target, Binning<Dim> const& at, Grid<Dim> const& grid, int W, int window,
-                      double range, Skins<Dim> const& skins, double beyond, Workers const& backend,
+    static void build(For<T> const& target, Grid<Dim> const& grid, int W, Neighbours const& how, double range,
+                      Skins<Dim> const& skins, Workers const& backend,
                       std::type_identity_t<std::span<const From<T>>> sources)
     {
-        for (auto const& from : sources) from.lists.begin_build(at.cells(), from.record, from.records());
-        backend.for_each(at.cells(), [&](std::size_t k) {
-            build_cell<T>(k, target, at, grid, W, window, range, skins, beyond, sources);
-        });
+        const std::size_t cells = target.bins.cells();
+        for (auto const& from : sources) from.lists.begin_build(cells, from.record, from.records());
+        try {
+            backend.for_each(cells,
+                             [&](std::size_t k) { build_cell<T>(k, target, grid, W, how, range, skins, sources); });
+        }
+        catch (std::bad_alloc const&) {
+            stop_for_memory(target, how.most);
+        }
         for (auto const& from : sources) from.lists.end_build();
     }
     [[nodiscard]] CellLists const& of_cell(std::size_t k) const { return cell_[k]; }
@@ -171,10 +187,11 @@ private:
     static constexpr bool whole_cells = Dim == 2; ///< gathered at once; a cell of space would not stay in the cache
 
     template <class T>
-    static void build_cell(std::size_t k, Places<Dim, T> const& target, Binning<Dim> const& at, Grid<Dim> const& grid,
-                           int W, int window, double range, Skins<Dim> const& skins, double beyond,
-                           std::span<const From<T>> from)
+    static void build_cell(std::size_t k, For<T> const& target, Grid<Dim> const& grid, int W, Neighbours const& how,
+                           double range, Skins<Dim> const& skins, std::span<const From<T>> from)
     {
+        auto const& at = target.bins;
+        const double beyond = how.skin - how.closed_in(); // reach beyond range and skin, as a fraction of the range
         static thread_local std::array<Window, most_sources> open;
         static thread_local std::vector<std::int32_t> order;
         const std::size_t sources = from.size();
@@ -182,7 +199,7 @@ private:
         for (std::size_t q = 0; q < sources; ++q) lists[q] = &from[q].lists.cell_[k];
         const int nx = grid.bins_of_cell(0), rows = grid.bins_of_cell() / nx;
         const Index<Dim> cell = at.cell(k);
-        window = (std::max(window, W) + W - 1) / W * W;
+        const int window = (std::max(how.window, W) + W - 1) / W * W;
 
         for (std::size_t q = 0; q < sources; ++q) {
             lists[q]->begin.assign(1, 0);
@@ -224,13 +241,16 @@ private:
                 for (; i < last; ++i) {
                     double x[std::size_t(Dim)];
                     for (int c = 0; c < Dim; ++c)
-                        x[c] = double(target.x[std::size_t(c)][i]) - grid.corner(c, corner[std::size_t(c)]);
+                        x[c] = double(target.places.x[std::size_t(c)][i]) - grid.corner(c, corner[std::size_t(c)]);
                     for (std::size_t q = 0; q < sources; ++q) {
                         auto& w = open[q];
                         w.length[std::size_t(count)] =
                             w.near.count == 0 ? 0
                                               : select(w.near, row, x, grid, ranges, from[q].same ? i : -1,
                                                        w.row.data() + std::size_t(count) * w.stride, lists[q]->pairs);
+                        if (w.length[std::size_t(count)] > how.most)
+                            stop(target, std::size_t(i), "its number of neighbours", w.length[std::size_t(count)],
+                                 how.most);
                     }
                     if (++count == window) close_window();
                 }
@@ -250,6 +270,28 @@ private:
         if (count > 0) close_window();
         for (std::size_t q = 0; q < sources; ++q)
             lists[q]->index.assign(open[q].list.begin(), open[q].list.begin() + std::ptrdiff_t(open[q].used));
+    }
+
+    template <class T>
+    [[noreturn, gnu::cold]] static void stop(For<T> const& target, std::size_t i, std::string quantity, double value,
+                                             int most)
+    {
+        StopFacts f = facts(target.places, target.ids, i);
+        f.species = target.species, f.quantity = std::move(quantity), f.value = value, f.limit = most;
+        throw NeighbourOverflow(f);
+    }
+    /// Names the first particle of the fullest cell.
+    template <class T>
+    [[noreturn, gnu::cold]] static void stop_for_memory(For<T> const& target, int most)
+    {
+        auto const& at = target.bins;
+        std::size_t fullest = 0;
+        for (std::size_t k = 0; k < at.cells(); ++k)
+            if (at.end(k) - at.begin(k) > at.end(fullest) - at.begin(fullest)) fullest = k;
+        const std::int32_t first = at.begin(fullest);
+        stop(target, std::size_t(first),
+             "that all neighbours need more memory than there is; the number of particles in its cell, the fullest,",
+             at.end(fullest) - first, most);
     }
 
     /// Appends the neighbours of a target at x from the row's corner: of each row of bins, the stretch that the reach

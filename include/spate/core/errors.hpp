@@ -156,6 +156,14 @@ struct IndexOverflow : Stop {
                "a particle is too far from the origin for the cell index: bound the domain")
     {}
 };
+struct NeighbourOverflow : Stop {
+    [[gnu::cold]] explicit NeighbourOverflow(StopFacts f)
+        : Stop(
+              "NeighbourOverflow", std::move(f),
+              "particles have clumped or the range is too long for them: look at the last snapshot, take a shorter range, "
+              "or a larger `most` of the Neighbours")
+    {}
+};
 struct EosDomain : Stop {
     [[gnu::cold]] explicit EosDomain(StopFacts f)
         : Stop("EosDomain", std::move(f),
@@ -182,6 +190,7 @@ struct OverlapTooDeep : Stop {
     if (name == "DtCollapse") throw DtCollapse(f);
     if (name == "SkinOutrun") throw SkinOutrun(f);
     if (name == "IndexOverflow") throw IndexOverflow(f);
+    if (name == "NeighbourOverflow") throw NeighbourOverflow(f);
     if (name == "EosDomain") throw EosDomain(f);
     if (name == "CoincidentParticles") throw CoincidentParticles(f);
     if (name == "OverlapTooDeep") throw OverlapTooDeep(f, "move them apart, or take a smaller dt");

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,7 +14,7 @@
 #include <variant>
 #include <vector>
 
-#include "spate/core/message.hpp"
+#include "spate/io/any_ranks.hpp"
 
 namespace spate::io {
 
@@ -60,8 +59,8 @@ struct Facts {
     std::optional<Corners> walls; ///< of a box that does not grow
 };
 
-/// A scene with the outputs that go on with it.
-class AnyScene {
+/// A scene with the outputs that go on with it, and the ranks that share it.
+class AnyScene : public AnyRanks {
 public:
     using Corners = Facts::Corners;
     /// Told of what a scene is put together from.
@@ -119,14 +118,6 @@ public:
     protected:
         ~Past() = default;
     };
-
-    // The ranks that share the scene: what io asks of them, by which it can ask for gathered().
-    static constexpr bool alone = false; ///< nobody knows before the run
-    [[nodiscard]] virtual int rank() const = 0;
-    [[nodiscard]] virtual int count() const = 0;
-    [[nodiscard]] virtual std::vector<Parcel> scatter(std::vector<Parcel> parcels) const = 0;
-    [[nodiscard]] virtual bool any(bool mine) const = 0;
-    virtual void together(std::function<void()> const& f) const = 0; ///< as spate::together
 
     // Called by all ranks: prepare, parts, interrupted, particles, resume. All else is about what is here.
     [[nodiscard]] virtual bool filled() const = 0;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <utility>
 
 #include "spate/io/checkpoint_file.hpp"
 #include "spate/io/checkpoints_in.hpp"
@@ -12,7 +13,10 @@
 namespace spate::io {
 
 struct CheckpointFile {
-    void write(std::filesystem::path const& file, State const& state) const { write_checkpoint(file, state); }
+    void write(AnyRanks const& ranks, std::filesystem::path const& file, State part) const
+    {
+        write_checkpoint(ranks, file, std::move(part));
+    }
     [[nodiscard]] State read(std::filesystem::path const& file) const { return read_checkpoint(file); }
 };
 

@@ -18,7 +18,6 @@
 
 #include "spate/core/together.hpp"
 #include "spate/io/any_scene.hpp"
-#include "spate/io/detail/rows_of_ranks.hpp"
 #include "spate/io/keep.hpp"
 #include "spate/io/output_error.hpp"
 #include "spate/io/resume.hpp"
@@ -27,7 +26,7 @@
 
 namespace spate::io {
 
-/// The last two files that it wrote are kept. A File has write(path, state) and read(path).
+/// The last two files that it wrote are kept. A File has write(ranks, path, part of the state) and read(path).
 template <class File>
 class Recorder {
 public:
@@ -122,21 +121,13 @@ private:
     [[gnu::cold]] void write(AnyScene& scene, State part, std::int64_t step)
     {
         const auto file = path("checkpoint", step);
-        write(scene, std::move(part), file);
+        file_.write(scene, file, std::move(part)); // parts of all ranks become one
         std::error_code error;
         written_.erase(std::remove(written_.begin(), written_.end(), file), written_.end());
         written_.push_back(file);
         for (; written_.size() > 2; written_.pop_front())
             if (scene.rank() == 0) std::filesystem::remove(written_.front(), error);
         last_ = file, at_ = step, wall_ = Clock::now();
-    }
-    /// Parts of all ranks become one file.
-    [[gnu::cold]] void write(AnyScene& scene, State part, std::filesystem::path const& file)
-    {
-        const State state = detail::whole(scene, std::move(part));
-        scene.together([&] {
-            if (scene.rank() == 0) file_.write(file, state);
-        });
     }
     [[gnu::cold]] void remember(AnyScene& scene)
     {
@@ -155,7 +146,7 @@ private:
             remembered_.clear();
             if (!last_.empty()) saved_ = "the last good state is " + last_.string();
             failing_ = path("failing", scene.facts().step);
-            write(scene, detail::part_of(scene), failing_);
+            file_.write(scene, failing_, detail::part_of(scene));
             saved_ += (saved_.empty() ? "" : ", ") + ("the failing one " + failing_.string());
         }
         catch (OutputError const& e) {

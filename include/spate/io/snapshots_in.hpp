@@ -15,7 +15,8 @@
 
 #include "spate/core/errors.hpp"
 #include "spate/core/fields.hpp"
-#include "spate/core/together.hpp"
+#include "spate/core/ranks.hpp"
+#include "spate/io/any_ranks.hpp"
 #include "spate/io/cloud.hpp"
 #include "spate/io/detail/every.hpp"
 
@@ -58,33 +59,9 @@ template <class Particles, class F>
     }
 }
 
-/// Of all ranks, on rank 0; in the order of species and ids, as on one rank.
-[[gnu::cold]] inline void gather(Cloud& cloud, auto const& ranks)
-{
-    cloud.id = gathered(ranks, std::move(cloud.id));
-    cloud.species = gathered(ranks, std::move(cloud.species));
-    std::vector<std::size_t> order(cloud.id.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return std::pair(cloud.species[a], cloud.id[a]) < std::pair(cloud.species[b], cloud.id[b]);
-    });
-    auto sort = [&](auto& values, std::size_t components) {
-        const auto old = values;
-        for (std::size_t k = 0; k < order.size(); ++k)
-            for (std::size_t c = 0; c < components; ++c) values[k * components + c] = old[order[k] * components + c];
-    };
-    cloud.points = gathered(ranks, std::move(cloud.points));
-    sort(cloud.points, 3);
-    for (Column& column : cloud.columns) {
-        column.values = gathered(ranks, std::move(column.values));
-        sort(column.values, std::size_t(column.components));
-    }
-    sort(cloud.id, 1), sort(cloud.species, 1);
-}
-
 } // namespace detail
 
-/// All particles of a scene, with the fields that its mobile particles show; of many ranks they are on rank 0.
+/// All particles of a scene that are here, with the fields that its mobile particles show, in the order of species and ids.
 template <class Scene>
 [[gnu::cold]] Cloud cloud_of(Scene const& scene)
 {
@@ -108,12 +85,11 @@ template <class Scene>
             for_each(fields, [&](auto f) { detail::append(cloud.columns[k++], p, i, f); });
         }
     });
-    if constexpr (!decltype(party_of(scene))::alone) detail::gather(cloud, party_of(scene));
     return cloud;
 }
 
-/// An output of Simulation::run. A series has write(cloud), which returns the file, times() of what it has
-/// written, and go_on_from(times): the next one follows these.
+/// An output of Simulation::run. A series has write(ranks, what of the cloud is here), which returns the file, times() of what
+/// it has written, and go_on_from(times): the next one follows these.
 template <class Series>
 class SnapshotsIn {
 public:
@@ -151,8 +127,7 @@ private:
     [[gnu::cold]] void write(auto& scene) // seldom: small and quick to compile
     {
         scene.refresh();
-        const Cloud cloud = cloud_of(scene);
-        by_one(party_of(scene), [&] { last_ = series_.write(cloud); });
+        last_ = series_.write(TheseRanks(party_of(scene)), cloud_of(scene));
         written_ = scene.steps();
     }
 

@@ -19,7 +19,7 @@
 
 #include "spate/core/box.hpp"
 #include "spate/core/fields.hpp"
-#include "spate/core/together.hpp"
+#include "spate/core/ranks.hpp"
 #include "spate/io/any_scene.hpp"
 
 namespace spate::io {
@@ -31,24 +31,27 @@ concept Remembers = requires(O& o, Notes const& notes)
     o.notes(notes);
 };
 
+template <class Scene>
+using ScenesRanks = TheseRanks<decltype(party_of(std::declval<Scene const&>())), AnyScene>;
+
 template <class Scene, class... Output>
-class ThisScene final : public AnyScene {
+class ThisScene final : public ScenesRanks<Scene> {
+    using Corners = AnyScene::Corners;
+    using Parts = AnyScene::Parts;
+    using Columns = AnyScene::Columns;
+    using Patches = AnyScene::Patches;
+    using Pairs = AnyScene::Pairs;
+    using Costs = AnyScene::Costs;
+    using Past = AnyScene::Past;
     using Engine = typename Scene::Engine;
     using M = typename Engine::M;
     static constexpr int dim = Scene::dim;
     using Place = std::array<std::int32_t, std::size_t(dim)>;
 
 public:
-    ThisScene(Scene& scene, std::tuple<Output&...> outputs) : scene_(scene), outputs_(outputs) {}
-
-    [[gnu::cold]] int rank() const override { return ranks().rank(); }
-    [[gnu::cold]] int count() const override { return ranks().count(); }
-    [[gnu::cold]] std::vector<Parcel> scatter(std::vector<Parcel> parcels) const override
-    {
-        return ranks().scatter(std::move(parcels));
-    }
-    [[gnu::cold]] bool any(bool mine) const override { return ranks().all(mine, agree::Or{}); }
-    [[gnu::cold]] void together(std::function<void()> const& f) const override { spate::together(ranks(), f); }
+    ThisScene(Scene& scene, std::tuple<Output&...> outputs)
+        : ScenesRanks<Scene>(party_of(scene)), scene_(scene), outputs_(outputs)
+    {}
 
     [[gnu::cold]] bool filled() const override { return !scene_.physics().open(); }
     [[gnu::cold]] bool interrupted() const override { return scene_.interrupted(); }
@@ -186,7 +189,6 @@ public:
     }
 
 private:
-    [[nodiscard]] decltype(auto) ranks() const { return scene_.system().ranks(); }
     [[gnu::cold]] static std::vector<std::pair<Place, std::int64_t>> costs_of(Past const& past)
     {
         struct : Costs {

@@ -10,7 +10,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <numeric>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -18,74 +17,73 @@
 #include <utility>
 #include <vector>
 
+#include "spate/io/any_ranks.hpp"
 #include "spate/io/cloud.hpp"
-#include "spate/io/detail/hdf5.hpp"
 #include "spate/io/detail/replace_file.hpp"
+#include "spate/io/detail/shared_file.hpp"
+#include "spate/io/detail/stretches.hpp"
 #include "spate/io/output_error.hpp"
 
 namespace spate::io {
 
 namespace detail {
 
-/// Memory of the arrays that are stored as they are.
-inline std::size_t bytes(Cloud const& cloud)
+/// f(name below VTKHDF, values of the particles that are here, components) for each array with a row a particle.
+/// \param named  with ids and species
+void each_array(Cloud const& cloud, bool named, auto const& f)
 {
-    std::size_t sum =
-        cloud.points.size() * sizeof(float) + cloud.id.size() * sizeof(std::int64_t) + cloud.species.size();
-    for (Column const& column : cloud.columns) sum += column.values.size() * sizeof(float);
-    for (IntegerColumn const& column : cloud.integers) sum += column.values.size() * sizeof(std::int64_t);
-    return sum;
+    f("Points", std::span(cloud.points), std::size_t{3});
+    for (Column const& c : cloud.columns)
+        f("PointData/" + c.name, std::span(c.values), static_cast<std::size_t>(c.components));
+    for (IntegerColumn const& c : cloud.integers) f("PointData/" + c.name, std::span(c.values), std::size_t{1});
+    if (named || !cloud.id.empty()) f("PointData/id", std::span(cloud.id), std::size_t{1});
+    if (named || !cloud.species.empty()) f("PointData/species", std::span(cloud.species), std::size_t{1});
 }
 
-template <class T>
-std::span<T const> view(std::vector<T> const& values)
+/// Instead of the particles that are here a stretch of all, in the order of species and ids.
+inline Where stretch(AnyRanks const& ranks, Cloud& cloud)
 {
-    return values;
+    if (ranks.count() == 1) return {0, cloud.size()};
+    std::vector<Key> keys;
+    for (std::size_t k = 0; k < cloud.size(); ++k) {
+        const auto id = static_cast<std::uint64_t>(cloud.id[k]);
+        keys.push_back({cloud.species[k], static_cast<std::uint32_t>(id >> 32), static_cast<std::uint32_t>(id)});
+    }
+    const Stretches stretches(ranks, keys, std::tuple_size_v<Key>);
+    auto take = [&](auto& values, std::size_t components) { values = stretches(values, components); };
+    take(cloud.points, 3);
+    for (Column& c : cloud.columns) take(c.values, static_cast<std::size_t>(c.components));
+    for (IntegerColumn& c : cloud.integers) take(c.values, 1);
+    take(cloud.id, 1), take(cloud.species, 1);
+    return stretches.where();
 }
 
 /// One VTK_VERTEX a particle, in one partition: Threshold, Clip and selections of VTK work on cells.
-inline void write_topology(Hdf5Image const& image, hid_t vtk, std::size_t n)
+inline void outline_topology(Hdf5Outline const& file, hid_t vtk, std::uint64_t n)
 {
     const std::array<std::int64_t, 1> count{static_cast<std::int64_t>(n)};
     for (auto* name : {"NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"})
-        image.dataset(vtk, name, std::span<std::int64_t const>(count));
-    std::vector<std::int64_t> offsets(n + 1);
-    std::iota(offsets.begin(), offsets.end(), std::int64_t{0});
-    const std::vector<std::uint8_t> types(n, 1);
-    image.dataset(vtk, "Connectivity", view(offsets).first(n), 1, true);
-    image.dataset(vtk, "Offsets", view(offsets), 1, true);
-    image.dataset(vtk, "Types", view(types), 1, true);
+        file.dataset(vtk, name, std::span<std::int64_t const>(count));
+    auto number = [](std::uint64_t k) { return static_cast<std::int64_t>(k); };
+    file.formula<std::int64_t>(vtk, "Connectivity", n, number);
+    file.formula<std::int64_t>(vtk, "Offsets", n + 1, number);
+    file.formula<std::uint8_t>(vtk, "Types", n, [](std::uint64_t) { return std::uint8_t{1}; });
 }
 
-inline void write_point_data(Hdf5Image const& image, hid_t vtk, Cloud const& cloud)
+inline void outline_vtkhdf(Hdf5Outline const& file, Cloud const& cloud, bool named, std::uint64_t n)
 {
-    const Hdf5Group group = image.group(vtk, "PointData");
-    for (Column const& column : cloud.columns)
-        image.dataset(group, column.name, view(column.values), static_cast<std::size_t>(column.components));
-    for (IntegerColumn const& column : cloud.integers) image.dataset(group, column.name, view(column.values));
-    if (!cloud.id.empty() || cloud.size() == 0) image.dataset(group, "id", view(cloud.id));
-    if (!cloud.species.empty() || cloud.size() == 0) image.dataset(group, "species", view(cloud.species));
-}
-
-inline void write_field_data(Hdf5Image const& image, hid_t vtk, Cloud const& cloud)
-{
-    const Hdf5Group group = image.group(vtk, "FieldData");
-    image.dataset(group, "TimeValue", std::span<double const>(&cloud.time, 1));
-    image.dataset(group, "step", std::span<std::int64_t const>(&cloud.step, 1));
-}
-
-inline std::vector<std::byte> vtkhdf_bytes(std::filesystem::path const& file, Cloud const& cloud)
-{
-    const Hdf5Image image(file, bytes(cloud));
-    const Hdf5Group vtk = image.group(image.root(), "VTKHDF");
+    const Hdf5Group vtk = file.group(file.root(), "VTKHDF");
     constexpr std::array<std::int64_t, 2> version{1, 0};
-    image.attribute(vtk, "Version", std::span<std::int64_t const>(version));
-    image.attribute(vtk, "Type", "UnstructuredGrid");
-    image.dataset(vtk, "Points", view(cloud.points), 3);
-    write_topology(image, vtk, cloud.size());
-    write_point_data(image, vtk, cloud);
-    write_field_data(image, vtk, cloud);
-    return image.bytes();
+    file.attribute(vtk, "Version", std::span<std::int64_t const>(version));
+    file.attribute(vtk, "Type", "UnstructuredGrid");
+    (void)file.group(vtk, "PointData");
+    each_array(cloud, named, [&]<class T>(std::string const& name, std::span<T const>, std::size_t components) {
+        (void)file.room<T>(vtk, name, n, components);
+    });
+    outline_topology(file, vtk, n);
+    const Hdf5Group group = file.group(vtk, "FieldData");
+    file.dataset(group, "TimeValue", std::span<double const>(&cloud.time, 1));
+    file.dataset(group, "step", std::span<std::int64_t const>(&cloud.step, 1));
 }
 
 /// The shortest decimal that reads back as the same double, in any locale.
@@ -97,11 +95,37 @@ inline std::string shortest(double value)
 
 } // namespace detail
 
-/// Name the file *.hdf: ParaView 5.11 opens no other. Throws OutputError, and the file is then what it was before.
+/// Of the particles that ranks hold, with ids and species if there are several of them; all of them call it. Name the file
+/// *.hdf: ParaView 5.11 opens no other. Throws OutputError, OtherRankFailed where another rank does, and the file is then
+/// what it was before.
+inline void write_vtkhdf(AnyRanks const& ranks, std::filesystem::path const& file, Cloud cloud)
+{
+    ranks.together([&] {
+        detail::check_cloud(cloud);
+        if (ranks.count() == 1) return;
+        detail::check_size("id", cloud.id.size(), cloud.size());
+        detail::check_size("species", cloud.species.size(), cloud.size());
+    });
+    const auto [first, total] = detail::stretch(ranks, cloud);
+    const bool named = ranks.count() > 1 || total == 0;
+    detail::SharedFile::Room room{0, 8 + 17 * total, 20}; // the topology, as if it were not compressed
+    detail::each_array(cloud, named, [&, n = total]<class T>(auto const&, std::span<T const>, std::size_t components) {
+        room.rows += n * components * sizeof(T), ++room.objects;
+    });
+    detail::SharedFile shared(ranks, file, room,
+                              [&, n = total](auto& outline) { detail::outline_vtkhdf(outline, cloud, named, n); });
+    if (total > 0)
+        shared.fill([&, from = first](detail::Hdf5Rows& rows) {
+            detail::each_array(cloud, named, [&](std::string const& name, auto values, std::size_t components) {
+                rows.write("VTKHDF/" + name, values, components, from);
+            });
+        });
+    shared.finish({});
+}
+/// Of particles that are all here.
 inline void write_vtkhdf(std::filesystem::path const& file, Cloud const& cloud)
 {
-    detail::check_cloud(cloud);
-    detail::replace_file(file, detail::vtkhdf_bytes(file, cloud));
+    write_vtkhdf(TheseRanks(Alone{}), file, cloud);
 }
 
 /// DIRECTORY/NAME_000000.hdf, NAME_000001.hdf, ... and NAME.hdf.series, which tells ParaView their times.
@@ -122,17 +146,21 @@ public:
         if (error) throw OutputError(directory_, error.value());
     }
 
-    /// Returns the file that holds the cloud.
-    std::filesystem::path write(Cloud const& cloud)
+    /// Returns the file that holds the particles of all ranks, which all call it.
+    std::filesystem::path write(AnyRanks const& ranks, Cloud cloud)
     {
         std::filesystem::path file = directory_ / file_name(times_.size());
-        write_vtkhdf(file, cloud);
         std::vector<double> times = times_;
         times.push_back(cloud.time);
-        detail::replace_file(directory_ / (name_ + ".hdf.series"), series(times));
+        write_vtkhdf(ranks, file, std::move(cloud));
+        ranks.together([&] {
+            if (ranks.rank() == 0) detail::replace_file(directory_ / (name_ + ".hdf.series"), series(times));
+        });
         times_ = std::move(times);
         return file;
     }
+    /// Of particles that are all here.
+    std::filesystem::path write(Cloud const& cloud) { return write(TheseRanks(Alone{}), cloud); }
 
     /// Of the snapshots written so far [s].
     std::vector<double> const& times() const { return times_; }

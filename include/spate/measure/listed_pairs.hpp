@@ -8,33 +8,31 @@
 #include "spate/core/vec.hpp"
 
 #include <algorithm>
+#include <vector>
 
 namespace spate {
 
-/// f(i, j, x) for each directed pair of mobile particles in the lists; x = x_i - x_j of the images that meet [m]. On many
-/// ranks pairs with another's particle are left out.
-template <class S>
-[[gnu::cold]] void each_listed_pair(S const& system, auto const& f)
+/// f(i, who, x) for each directed pair of a mobile particle i that is here in the lists; x = x_i - x_j of the images that meet
+/// [m], who tells id and radius of j. \param others  what others' particles are like, by number
+template <class S, class Near>
+[[gnu::cold]] void each_listed_pair(S const& system, std::vector<Near> const& others, auto const& f)
 {
     auto const& p = system.mobile();
     auto const& bins = system.template species<0>().bins;
     auto const& lists = system.template lists<0, 0>();
-    auto const& images = bins.images();
     constexpr auto W = std::size_t(width<typename S::V>);
-    const std::size_t n = p.size();
     for (std::size_t cell = 0; cell < bins.cells(); ++cell) {
         auto const& mine = lists.of_cell(cell);
         const auto first = std::size_t(bins.begin(cell));
         for (std::size_t slot = 0; slot < mine.index.size(); ++slot) {
             const std::size_t j = lists.number(mine.index[slot]);
-            if (system.particle_of(j) >= n) continue; // the sentinel; another's
+            if (j == p.size()) continue; // the sentinel
             const auto row = std::int32_t(slot / W);
             const auto block =
                 std::size_t(std::upper_bound(mine.begin.begin(), mine.begin.end(), row) - mine.begin.begin()) - 1;
             const std::size_t i = first + std::size_t(mine.target[block * W + slot % W]);
-            Vec<S::dim, double> other = p.at(position, j < n ? j : std::size_t(images.of[j - n - 1]));
-            if (j > n) other += shift_of(images.code[j - n - 1], system.grid());
-            f(i, j < n ? j : std::size_t(images.of[j - n - 1]), p.at(position, i) - other);
+            const Near who = system.near(j, others);
+            f(i, who, p.at(position, i) - who.x);
         }
     }
 }

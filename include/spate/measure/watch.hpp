@@ -9,6 +9,7 @@
 #include "spate/measure/origin.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string_view>
 
@@ -44,6 +45,13 @@ struct NoWatch {
     static constexpr bool on = false;
     void check() const {}
 };
+
+/// Whether the mobile particles of a system are grains.
+template <class S>
+inline constexpr bool has_radius = [] {
+    using Q = std::remove_cvref_t<decltype(std::declval<S const&>().mobile())>;
+    return (Q::fields | Q::uniform).template contains<Radius>;
+}();
 
 namespace detail {
 /// Facts of one particle of the mobile species.
@@ -130,50 +138,68 @@ template <class P>
     f.limit = f.value > most ? most : 0;
     throw EosDomain(f);
 }
-/// The pairs of a start: two grains at one place or deep in each other are a stop, two smoothed particles at one place
-/// a warning, since nothing will part them.
+/// Two particles that are in each other, by their ids; of images of one particle these are equal.
+struct DeepPair {
+    double depth; ///< over the smaller radius [-]
+    std::uint32_t particle = std::numeric_limits<std::uint32_t>::max(), other = particle; ///< the lower id first
+    int rank = -1; ///< that has the first; -1: there is none
+
+    [[nodiscard]] bool counts_more_than(DeepPair const& b) const
+    {
+        if (depth != b.depth) return depth > b.depth;
+        return particle != b.particle ? particle < b.particle : other < b.other;
+    }
+};
+struct Deepest {
+    void operator()(DeepPair& a, DeepPair const& b) const
+    {
+        if (b.counts_more_than(a)) a = b;
+    }
+};
+/// The deepest pair of all ranks, which all call it; infinitely deep are two at one place.
 /// \param overlap  the deepest that is let pass, over the smaller radius
 template <class S>
-[[gnu::cold]] void look_at_pairs(S const& system, double overlap, std::int64_t step, double time,
+[[gnu::cold]] DeepPair deepest_pair(S const& system, double overlap)
+{
+    auto const& p = system.mobile();
+    std::vector<typename S::Near> others;
+    if constexpr (!S::alone) others = system.others();
+    DeepPair worst{overlap};
+    each_listed_pair(system, others, [&](std::size_t i, auto const& who, auto const& x) {
+        const double r2 = x.squaredNorm();
+        DeepPair pair{r2 == 0 ? std::numeric_limits<double>::infinity() : 0, p.id()[i], who.id, system.ranks().rank()};
+        if constexpr (has_radius<S>)
+            if (r2 > 0) {
+                const double a = p.at(radius, i), b = who.radius;
+                pair.depth = (a + b - std::sqrt(r2)) / std::min(a, b);
+            }
+        if (pair.particle <= pair.other && pair.depth > overlap) Deepest{}(worst, pair);
+    });
+    return system.ranks().all(worst, Deepest{});
+}
+/// The pairs of a start: two grains at one place or deep in each other are a stop, two smoothed particles at one place
+/// a warning, since nothing will part them. Throws on the rank that has the particle.
+/// \param worst  of all pairs    \param overlap  as above
+template <class S>
+[[gnu::cold]] void look_at_pairs(S const& system, DeepPair const& worst, double overlap, std::int64_t step, double time,
                                  std::vector<std::string>& warnings)
 {
-    using Q = std::remove_cvref_t<decltype(system.mobile())>;
-    auto const& p = system.mobile();
-    constexpr bool grains = (Q::fields | Q::uniform).template contains<Radius>;
-    std::size_t worst_i = p.size(), worst_j = 0;
-    double worst = overlap;
-    bool one_place = false;
-    each_listed_pair(system, [&](std::size_t i, std::size_t j, auto const& x) {
-        const double r2 = x.squaredNorm();
-        double depth = r2 == 0 ? std::numeric_limits<double>::infinity() : 0;
-        if constexpr (grains)
-            if (r2 > 0) {
-                const double a = p.at(radius, i), b = p.at(radius, j);
-                depth = (a + b - std::sqrt(r2)) / std::min(a, b);
-            }
-        const bool first = p.id()[i] < p.id()[j] && (worst_i == p.size() || p.id()[i] < p.id()[worst_i]);
-        if (depth > worst || (depth == worst && depth > overlap && first)) {
-            worst = depth, worst_i = i, worst_j = j;
-            one_place = r2 == 0;
-        }
-    });
-    if (worst_i == p.size()) return;
-    if (p.id()[worst_j] < p.id()[worst_i]) std::swap(worst_i, worst_j);
-    StopFacts f = detail::facts_of(p, worst_i);
-    f.step = step, f.time = time, f.other = p.id()[worst_j];
-    if constexpr (grains) {
-        f.quantity = "the overlap of two grains at the start, over the smaller radius";
-        f.value = worst, f.limit = overlap;
-        if (!one_place)
-            throw OverlapTooDeep(
-                f, "move them apart, or let it pass with Watch{.overlap = ...}: the energy that is stored "
-                   "there sets them free like a shot");
-        f.quantity = "the distance of two grains [m]", f.value = f.limit = 0;
-        throw CoincidentParticles(f);
-    }
-    else
-        warnings.push_back("particles " + std::to_string(f.particle) + " and " + std::to_string(f.other) +
+    if (worst.rank < 0) return;
+    if constexpr (!has_radius<S>)
+        warnings.push_back("particles " + std::to_string(worst.particle) + " and " + std::to_string(worst.other) +
                            " are at one place, where no force parts them");
+    else if (worst.rank == system.ranks().rank()) {
+        auto const& p = system.mobile();
+        StopFacts f =
+            detail::facts_of(p, detail::first_by_id(p, [&](std::size_t i) { return p.id()[i] == worst.particle; }));
+        f.step = step, f.time = time, f.other = worst.other;
+        f.quantity = "the distance of two grains [m]";
+        if (std::isinf(worst.depth)) throw CoincidentParticles(f);
+        f.quantity = "the overlap of two grains at the start, over the smaller radius";
+        f.value = worst.depth, f.limit = overlap;
+        throw OverlapTooDeep(f, "move them apart, or let it pass with Watch{.overlap = ...}: the energy that is stored "
+                                "there sets them free like a shot");
+    }
 }
 /// Throws OutOfDomain for the first particle that is further beyond a wall face than the wall is thick.
 template <class P, class B>

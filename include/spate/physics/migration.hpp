@@ -67,6 +67,31 @@ void System<P, B, Workers, Precision>::restore_lists(bool local, OfParticles ski
 }
 
 template <class P, class B, class Workers, class Precision>
+auto System<P, B, Workers, Precision>::others() const -> std::vector<Near>
+{
+    auto const& p = mobile();
+    auto const& halo = parts_.halo(0);
+    std::vector<Parcel> parcels;
+    for (auto const& link : halo.out()) {
+        std::vector<Near> ours;
+        for (const auto k : link.particle) {
+            const auto i = std::size_t(k);
+            ours.push_back({p.at(position, i), radius_at<double>(i), p.id()[i]});
+        }
+        parcels.push_back({link.rank, {}});
+        parcels.back().message.put(ours);
+    }
+    std::vector<Near> all(halo.ids().size());
+    for (auto& parcel : ranks().scatter(std::move(parcels)))
+        for (auto const& link : halo.in())
+            if (link.rank == parcel.rank) {
+                const auto theirs = parcel.message.template take_all<Near>();
+                for (std::size_t k = 0; k < theirs.size(); ++k) all[std::size_t(link.particle[k])] = theirs[k];
+            }
+    return all;
+}
+
+template <class P, class B, class Workers, class Precision>
 void System<P, B, Workers, Precision>::each_cost(auto const& f) const
 {
     if (!have_lists_ || !any_pairs) return;

@@ -637,6 +637,35 @@ public:
             if (j >= std::size_t(parts_.foreign(0).first)) return n + 1 + parts_.foreign(0).number_of(j);
         return j < n ? j : j - n - 1 < of.size() ? std::size_t(of[j - n - 1]) : n;
     }
+    /// What a look at pairs asks of a mobile particle.
+    struct Near {
+        Vec<dim, double> x; ///< [m]
+        double radius;      ///< 0 if it has none  [m]
+        std::uint32_t id;
+    };
+    /// Others' particles as they are now, by number; all ranks call it.
+    [[nodiscard]] std::vector<Near> others() const;
+    /// Who is behind a record other than the sentinel, at the place of the image that meets. \param others  as above
+    [[nodiscard, gnu::cold]] Near near(std::size_t j, [[maybe_unused]] std::vector<Near> const& others) const
+    {
+        auto const& p = mobile();
+        const std::size_t n = p.size();
+        auto moved = [&](Near one, auto const& images, std::size_t image) {
+            one.x += shift_of(images.code[image], grid_);
+            return one;
+        };
+        if constexpr (!alone) {
+            const auto foreign = parts_.foreign(0);
+            if (j >= std::size_t(foreign.first)) {
+                const std::size_t k = foreign.number_of(j), record = j - std::size_t(foreign.first);
+                return record == k ? others[k] : moved(others[k], foreign.bins.images(), record - foreign.places.size);
+            }
+        }
+        auto const& images = species<0>().bins.images();
+        const std::size_t i = j < n ? j : std::size_t(images.of[j - n - 1]);
+        const Near one{p.at(position, i), radius_at<double>(i), p.id()[i]};
+        return j < n ? one : moved(one, images, j - n - 1);
+    }
     /// Bytes of all that is kept for the particles: columns, records, lists, bins.
     [[nodiscard, gnu::cold]] std::size_t bytes() const
     {
@@ -1468,12 +1497,13 @@ private:
     /// Builds the lists of sorted particles, and gives them what was set aside of the pairs.
     void build_lists()
     {
-        const double range = physics_.interaction.range(), beyond = neighbours_.skin - neighbours_.closed_in();
         each_species([&](auto s) {
             auto build = [&](auto... sources) {
                 const std::array<typename Lists<dim>::template From<T>, sizeof...(sources)> from{sources...};
-                Lists<dim>::build(places<s()>(), species<s()>().bins, grid_, width<PairV>, neighbours_.window, range,
-                                  skins_.of(s()), beyond, backend_, from);
+                const typename Lists<dim>::template For<T> target{s(), places<s()>(), species<s()>().bins,
+                                                                  species<s()>().particles.id()};
+                Lists<dim>::build(target, grid_, width<PairV>, neighbours_, physics_.interaction.range(),
+                                  skins_.of(s()), backend_, from);
             };
             constexpr bool meets_0 = M::planner.meet(s(), 0), meets_1 = species_count == 2 && M::planner.meet(s(), 1);
             if constexpr (meets_0 && meets_1) build(from<s(), 0>(), from<s(), 1>());

@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string_view>
@@ -22,7 +23,7 @@ namespace spate::io::detail {
 class Temporary {
 public:
     explicit Temporary(std::filesystem::path const& file)
-        : file_(file), tmp_(file.string() + ".tmp"),
+        : file_(file), tmp_(name_of(file)),
           descriptor_(::open(tmp_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666))
     {
         if (descriptor_ < 0) throw OutputError(file_, errno);
@@ -35,6 +36,26 @@ public:
         if (!renamed_) ::unlink(tmp_.c_str());
     }
 
+    static std::filesystem::path name_of(std::filesystem::path const& file) { return file.string() + ".tmp"; }
+
+    /// Keeps room on the disk for so many bytes, which are zeros if they are not written.
+    void reserve(std::uint64_t bytes)
+    {
+        int error = EINTR;
+        while (error == EINTR) error = ::posix_fallocate(descriptor_, 0, static_cast<off_t>(bytes));
+        if (error != 0) throw OutputError(file_, error);
+    }
+    [[nodiscard]] std::uint64_t size() const
+    {
+        const off_t end = ::lseek(descriptor_, 0, SEEK_END);
+        if (end < 0) throw OutputError(file_, errno);
+        return static_cast<std::uint64_t>(end);
+    }
+    /// From the begin of the file on.
+    void rewind() const
+    {
+        if (::lseek(descriptor_, 0, SEEK_SET) < 0) throw OutputError(file_, errno);
+    }
     void write(std::span<std::byte const> bytes)
     {
         while (!bytes.empty()) {

@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// \brief From the parts of a state that ranks hold to the whole on one of them, and back. Rows know by a key where they
-///        belong, so that nothing tells how many ranks there were.
+/// \brief From the parts of a state that ranks hold to stretches of the whole, or to the whole on one of them, and back. Rows
+///        know by a key where they belong, so that nothing tells how many ranks there were.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <numeric>
+#include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "spate/core/ranks.hpp"
-#include "spate/io/any_scene.hpp"
+#include "spate/io/any_ranks.hpp"
+#include "spate/io/detail/stretches.hpp"
 #include "spate/io/state.hpp"
 
 namespace spate::io::detail {
@@ -34,45 +36,40 @@ inline std::string key_of(std::string const& name)
 /// By species: the skin at each particle, of which a file has one a patch.
 inline std::string skins_of_particles(int s) { return "species_" + std::to_string(s) + "/skin at particle"; }
 
-/// The order of rows by their numbers, from the first column on.
-template <class T>
-[[gnu::cold]] std::vector<std::size_t> order_of(std::vector<T> const& rows, std::size_t columns)
-{
-    std::vector<std::size_t> order(rows.size() / columns);
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    auto row = [&](std::size_t k) { return rows.begin() + std::ptrdiff_t(k * columns); };
-    const auto n = std::ptrdiff_t(columns);
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return std::lexicographical_compare(row(a), row(a) + n, row(b), row(b) + n);
-    });
-    return order;
-}
-template <class T>
-[[gnu::cold]] void put_in_order(std::vector<T>& rows, std::size_t columns, std::vector<std::size_t> const& order)
-{
-    const std::vector<T> old = std::move(rows);
-    rows.clear();
-    rows.reserve(old.size());
-    for (const std::size_t k : order)
-        rows.insert(rows.end(), old.begin() + std::ptrdiff_t(k * columns),
-                    old.begin() + std::ptrdiff_t((k + 1) * columns));
-}
+/// Of the tables whose rows go with a key, by the key's name: where the stretch of this rank is.
+using StretchesOf = std::map<std::string, Where>;
 
-/// On rank 0 the state of all, as one rank would have it; elsewhere nothing of use.
-[[gnu::cold]] inline State whole(AnyScene const& scene, State part)
+/// Instead of the part of the state that is here a stretch of each of its tables, in the order that one rank would have; what
+/// has no key stays.
+[[gnu::cold]] inline StretchesOf stretch(AnyRanks const& ranks, State& part)
 {
-    if (scene.count() == 1) return part;
-    for (auto& [name, table] : part.tables)
-        if (!key_of(name).empty())
-            std::visit([&](auto& rows) { rows = gathered(scene, std::move(rows)); }, table.values);
-    if (scene.rank() != 0) return part;
-    std::map<std::string, std::vector<std::size_t>> order;
+    std::map<std::string, std::vector<std::string>> keyed;
     for (auto const& [name, table] : part.tables)
-        if (key_of(name) == name)
-            order[name] = std::visit([n = table.columns](auto const& rows) { return order_of(rows, n); }, table.values);
-    for (auto& [name, table] : part.tables)
-        if (const auto key = order.find(key_of(name)); key != order.end())
-            std::visit([&, n = table.columns](auto& rows) { put_in_order(rows, n, key->second); }, table.values);
+        if (const std::string key = key_of(name); !key.empty()) keyed[key].push_back(name);
+    StretchesOf all;
+    for (auto const& [key, names] : keyed) {
+        auto const& table = part.tables.at(key);
+        auto keys = [n = table.columns]<class T>(std::vector<T> const& rows) -> std::vector<Key> {
+            if constexpr (std::is_same_v<T, std::uint32_t> || std::is_same_v<T, std::int32_t>) return keys_of(rows, n);
+            else throw std::logic_error("spate: keys of rows are whole numbers");
+        };
+        const Stretches stretches(ranks, std::visit(keys, table.values), table.columns);
+        all[key] = stretches.where();
+        for (auto const& name : names) {
+            auto& of = part.tables.at(name);
+            std::visit([&](auto& rows) { rows = stretches(rows, of.columns); }, of.values);
+        }
+    }
+    return all;
+}
+/// On rank 0 the state of all, as one rank would have it; elsewhere nothing of use.
+[[gnu::cold]] inline State whole(AnyRanks const& ranks, State part)
+{
+    if (ranks.count() == 1) return part;
+    for (auto const& [key, where] : stretch(ranks, part))
+        for (auto& [name, table] : part.tables)
+            if (key_of(name) == key)
+                std::visit([&](auto& rows) { rows = gathered(ranks, std::move(rows)); }, table.values);
     return part;
 }
 
@@ -108,11 +105,11 @@ struct Shape {
     std::size_t kind, columns;
 };
 /// The names and types of the tables of rank 0, and its texts, on all ranks.
-[[gnu::cold]] inline std::vector<Shape> shapes_of(AnyScene const& scene, State const& state, State& mine)
+[[gnu::cold]] inline std::vector<Shape> shapes_of(AnyRanks const& ranks, State const& state, State& mine)
 {
     std::vector<Parcel> parcels;
     auto put = [](Message& m, std::string const& text) { m.put(std::vector<char>(text.begin(), text.end())); };
-    for (int r = 0; r < scene.count() && scene.rank() == 0; ++r) {
+    for (int r = 0; r < ranks.count() && ranks.rank() == 0; ++r) {
         Message m;
         m.put(std::uint64_t(state.tables.size()));
         for (auto const& [name, table] : state.tables)
@@ -120,7 +117,7 @@ struct Shape {
         for (auto const& [name, text] : state.texts) put(m, name), put(m, text);
         parcels.push_back({r, std::move(m)});
     }
-    Message m = std::move(scene.scatter(std::move(parcels)).front().message);
+    Message m = std::move(ranks.scatter(std::move(parcels)).front().message);
     auto take = [&] {
         const auto text = m.take_all<char>();
         return std::string(text.begin(), text.end());
@@ -139,18 +136,18 @@ struct Shape {
 
 /// The part of the state of rank 0 with which a rank begins: like numbers of particles of each species in the order of
 /// ids, and what is kept of their pairs; whatever is not of particles all have. Nothing if the state has no such table.
-[[gnu::cold]] inline State dealt(AnyScene const& scene, State const& state)
+[[gnu::cold]] inline State dealt(AnyRanks const& ranks, State const& state)
 {
     State mine;
     mine.origin = state.origin;
-    const Deal deal(state, scene.count());
+    const Deal deal(state, ranks.count());
     auto one = [&]<class T>(Shape const& shape, std::type_identity<T>) {
         std::vector<Parcel> parcels;
-        if (scene.rank() == 0) {
+        if (ranks.rank() == 0) {
             auto const& all = state.table<T>(shape.name, shape.columns);
             const bool shared_by_all = key_of(shape.name).empty();
             const auto begin = deal(shape.name, all.size() / shape.columns);
-            for (int r = 0; r < scene.count(); ++r) {
+            for (int r = 0; r < ranks.count(); ++r) {
                 const auto first = shared_by_all ? 0 : begin[std::size_t(r)] * shape.columns;
                 const auto last = shared_by_all ? all.size() : begin[std::size_t(r) + 1] * shape.columns;
                 Message m;
@@ -159,10 +156,10 @@ struct Shape {
                 parcels.push_back({r, std::move(m)});
             }
         }
-        parcels = scene.scatter(std::move(parcels));
+        parcels = ranks.scatter(std::move(parcels));
         mine.put(shape.name, parcels.front().message.template take_all<T>(), shape.columns);
     };
-    for (auto const& shape : shapes_of(scene, state, mine)) {
+    for (auto const& shape : shapes_of(ranks, state, mine)) {
         [&]<class... T>(std::variant<std::vector<T>...> const*) {
             std::size_t kind = 0;
             ((kind++ == shape.kind ? one(shape, std::type_identity<T>{}) : void()), ...);

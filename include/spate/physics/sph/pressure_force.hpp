@@ -16,6 +16,7 @@ struct PressureForce;
 /// sigma = 2: dv_i/dt = -sum_j m_j (p_i/rho_i^2 + p_j/rho_j^2) grad W_ij.
 template <>
 struct PressureForce<2> {
+    static constexpr double most_density_ratio = 10; ///< at a jump the heavy side pushes by V^2 of the light one [-]
     static constexpr Fields reads{density, pressure};
     static constexpr Fields reads_j{mass};
     static constexpr Fields adds{acceleration};

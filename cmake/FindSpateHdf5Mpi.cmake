@@ -1,0 +1,30 @@
+# Finds an HDF5 that knows MPI beside one that does not, which FindHDF5 cannot: defines spate::hdf5_mpi. MPI has to be found
+# before. Debian has both, with the headers in hdf5/serial and hdf5/openmpi.
+if(HDF5_FOUND AND HDF5_IS_PARALLEL)
+    set(SpateHdf5Mpi_INCLUDE_DIR ${HDF5_C_INCLUDE_DIRS})
+    set(SpateHdf5Mpi_LIBRARY HDF5::HDF5)
+    set(SpateHdf5Mpi_IS_PARALLEL ON)
+else()
+    find_path(SpateHdf5Mpi_INCLUDE_DIR hdf5.h PATH_SUFFIXES hdf5/openmpi hdf5/mpich)
+    find_library(SpateHdf5Mpi_LIBRARY NAMES hdf5_openmpi hdf5_mpich hdf5 PATH_SUFFIXES hdf5/openmpi hdf5/mpich)
+    mark_as_advanced(SpateHdf5Mpi_INCLUDE_DIR SpateHdf5Mpi_LIBRARY)
+    set(SpateHdf5Mpi_IS_PARALLEL OFF)
+    if(SpateHdf5Mpi_INCLUDE_DIR)
+        file(GLOB SpateHdf5Mpi_configuration ${SpateHdf5Mpi_INCLUDE_DIR}/H5pubconf*.h)
+        foreach(header IN LISTS SpateHdf5Mpi_configuration)
+            file(STRINGS ${header} SpateHdf5Mpi_parallel REGEX "^#define H5_HAVE_PARALLEL 1")
+            if(SpateHdf5Mpi_parallel)
+                set(SpateHdf5Mpi_IS_PARALLEL ON)
+            endif()
+        endforeach()
+    endif()
+endif()
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(SpateHdf5Mpi
+    REQUIRED_VARS SpateHdf5Mpi_LIBRARY SpateHdf5Mpi_INCLUDE_DIR SpateHdf5Mpi_IS_PARALLEL MPI_CXX_FOUND
+    REASON_FAILURE_MESSAGE "Debian calls it libhdf5-openmpi-dev")
+if(SpateHdf5Mpi_FOUND AND NOT TARGET spate::hdf5_mpi)
+    add_library(spate::hdf5_mpi INTERFACE IMPORTED)
+    set_target_properties(spate::hdf5_mpi PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${SpateHdf5Mpi_INCLUDE_DIR}"
+        INTERFACE_LINK_LIBRARIES "${SpateHdf5Mpi_LIBRARY};MPI::MPI_CXX")
+endif()
