@@ -58,7 +58,7 @@ End on_ranks(int count, I integrator, Precision precision, std::int64_t steps, i
     }
     return ends[0];
 }
-constexpr std::int64_t steps = 600, cut = 333;
+constexpr std::int64_t steps = 240, cut = 133;
 
 template <class I, class Precision>
 void expect_bits(I integrator, Precision precision)
