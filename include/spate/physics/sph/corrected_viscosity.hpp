@@ -37,7 +37,7 @@ struct ImbalanceSum {
     void operator()(auto& i, auto const& j, auto const& ij) const { i[imbalance] += j[mass] / j[density] * ij.grad_w; }
 };
 template <int Dim>
-struct Drag {
+struct ViscosityOfSums {
     static constexpr auto reads = Fields{viscous_sum, imbalance, density} | rows_of<VelocitySlope, Dim>() |
                                   rows_of<Correction, Dim>() | rows_of<GradientMoment, Dim>();
     static constexpr Fields adds{acceleration};
@@ -73,7 +73,7 @@ struct CorrectedViscosity {
     template <class I>
     [[nodiscard]] auto terms(I const&) const
     {
-        return std::tuple{ViscousSums{mu}, ImbalanceSum{}, Drag<I::dim>{mu}};
+        return std::tuple{ViscousSums{mu}, ImbalanceSum{}, ViscosityOfSums<I::dim>{mu}};
     }
 };
 
