@@ -973,6 +973,22 @@ private:
         f.limit = std::numeric_limits<double>::max();
         throw NonFinite(f);
     }
+    /// A body may be lost where no particle feels it.
+    void look_at_bodies() const
+    {
+        auto const& bodies = system_.boundary().bodies();
+        for (int k = 0; k < bodies.count; ++k)
+            if (!bodies[k].finite()) stop_body(k, bodies[k]);
+    }
+    [[noreturn, gnu::cold]] void stop_body(int k, auto const& body) const
+    {
+        StopFacts f;
+        f.step = step_, f.time = time_, f.species = 1;
+        f.quantity = "the state of body " + std::to_string(k) + ", or a square of its speed,";
+        f.value = std::sqrt(body.state.velocity.squaredNorm()), f.limit = std::numeric_limits<double>::max();
+        for (int c = 0; c < dim; ++c) f.position[c] = body.place()[c], f.velocity[c] = body.state.velocity[c];
+        throw NonFinite(f);
+    }
     void look(Extremes const& e)
     {
         if constexpr (has_equation_of_state<P>) {
@@ -990,6 +1006,7 @@ private:
                         else return {};
                     });
                 });
+            if constexpr (Engine::M::floats) look_at_bodies();
             if constexpr (has_equation_of_state<P>)
                 if (!(e.least_density > 0) || e.most_density > most_density()) {
                     look_outside(); // one that was thrown through a wall says more than those it passed

@@ -94,6 +94,20 @@ auto tank(Tank const& t, I integrator, W workers, Pr precision, S state, O... op
 auto const& body_of(auto const& scene, int k = 0) { return scene.system().boundary().bodies()[k]; }
 constexpr Box<2> raft(double foot) { return {{{0.34, foot}}, {{0.66, foot + 0.16}}}; }
 
+TEST(Floating, RefusesWhatIsNoBody)
+{
+    auto tank_with = [](Box<2> const& solid, Floating<2> const& law) {
+        return Bce(Box<2>{{0, 0}, {1, 1}}, dx, Adami{}, open(top), obstacle(solid, law));
+    };
+    const Box<2> block{{0.4, 0.4}, {0.6, 0.6}};
+    EXPECT_THROW(tank_with(block, {}), BadInput);
+    EXPECT_THROW(tank_with(block, {.density = 500, .mass = 2}), BadInput);
+    EXPECT_THROW(tank_with(block, {.density = -1}), BadInput);
+    EXPECT_THROW(tank_with(block, {.density = 500, .contact = {.k = -1}}), BadInput);
+    EXPECT_THROW(tank_with({{2, 2}, {3, 3}}, {.density = 500}), BadInput);               // outside
+    EXPECT_THROW(tank_with({{0.501, 0.501}, {0.505, 0.505}}, {.density = 1}), BadInput); // between the points
+    EXPECT_EQ(tank_with(block, {.mass = 2}).bodies()[0].mass, 2);
+}
 // Free fall: x + v t - g t^2/2 of second-order schemes; the first-order ones lag or lead by g dt t/2. A step rounds x and v
 // a few times.
 template <class I>

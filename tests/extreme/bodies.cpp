@@ -169,6 +169,38 @@ TEST(Bodies, X23AtRestOnAWallItIsAsDeepAsItsWeight)
     EXPECT_LT(norm(body(s).state.velocity), 1e-6);
     EXPECT_LT(std::abs(body(s).state.attitude.angle), 1e-9);
 }
+/// A step a hundred times too long makes more of each bounce: told at the first step, and then a stop.
+TEST(Bodies, X23AStepThatNoSpringBearsIsAStop)
+{
+    auto s = scene({}, Double{}, Serial{}, Watch{},
+                   Disc{{{{0.2, 0.3}}, R}, {.density = 1500, .velocity = {{1, 0}}, .contact = {.k = 1e8}}});
+    std::string name;
+    try {
+        s.run({.steps = 2000, .dt = 1e-2});
+    }
+    catch (Stop const& stop) {
+        name = stop.name();
+    }
+    EXPECT_TRUE(name == "IndexOverflow" || name == "NonFinite") << name;
+    EXPECT_EQ(std::count_if(s.report().warnings.begin(), s.report().warnings.end(),
+                            [](auto const& w) { return w.find("more than a body of its mass bears") != w.npos; }),
+              1);
+}
+TEST(Bodies, X23OneThatIsNowhereIsAStopThoughNothingFeelsIt)
+{
+    auto s = scene({}, Double{}, Serial{}, Watch{}, Disc{{{{0.2, 0.3}}, R}, {.density = 1500}});
+    s.run({.steps = 3});
+    s.system().boundary().bodies()[0].torque[0] = std::nan("");
+    StopFacts facts;
+    try {
+        s.run({.steps = 1});
+    }
+    catch (NonFinite const& stop) {
+        facts = stop.facts();
+    }
+    EXPECT_EQ(facts.quantity, "the state of body 0, or a square of its speed,");
+    EXPECT_EQ(facts.step, 3);
+}
 /// In each other by two spacings, in space without weight: they part, and what both have together stays.
 TEST(Bodies, X23InEachOtherTheyPartAndKeepTheirMomentum)
 {

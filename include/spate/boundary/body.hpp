@@ -78,6 +78,12 @@ public:
 
     [[nodiscard]] Point place() const { return centre + state.shift; }
     [[nodiscard]] Axial spin() const { return spin_at(state.attitude); } ///< [rad/s]
+    /// Whether it is somewhere, and squares of what moves it are numbers.
+    [[nodiscard]] bool finite() const
+    {
+        return std::isfinite(state.shift.squaredNorm() + state.velocity.squaredNorm() + spin().squaredNorm() +
+                             acceleration.squaredNorm() + torque.squaredNorm());
+    }
     /// 1/2 m v^2 + 1/2 omega . L [J].
     [[nodiscard]] double kinetic_energy() const
     {
