@@ -144,7 +144,7 @@ inline void expect_errors_of_all(auto const& ranks, std::filesystem::path const&
         (void)these.any(false);
     }
     (void)these.any(false); // in one process nobody sets a limit before this one is gone
-    try { // a disk that is full for the last rank alone, whose rows others may write by now
+    try {                   // a disk that is full for the last rank alone, whose rows others may write by now
         std::optional<small_tank::SmallDisk> disk;
         if (rank == count - 1 && rank > 0) disk.emplace(4096);
         write(file, few), write(file, all);
