@@ -4,6 +4,7 @@
 #pragma once
 
 #include "spate/core/fields.hpp"
+#include "spate/core/term.hpp"
 #include "spate/physics/rows.hpp"
 
 #include <tuple>
