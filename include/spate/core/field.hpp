@@ -92,7 +92,7 @@ inline constexpr struct PositionTail : VectorField { static constexpr std::strin
 inline constexpr struct BuildPosition : VectorField { static constexpr std::string_view name = "build_position", unit = "m"; } build_position{};
 // clang-format on
 
-/// Moment of inertia of a round particle over m R^2 [-]: of a disc about its axis, of a sphere.
+/// Moment of inertia of a round particle over m R^2 [-], in the plane and in space.
 template <int Dim>
 inline constexpr double inertia = Dim < 3 ? 0.5 : 0.4;
 

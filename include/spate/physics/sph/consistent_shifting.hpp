@@ -25,21 +25,16 @@ struct DensitySlopes {
 };
 /// ShiftInside, and f += dx . grad f of velocity and density.
 template <int Dim>
-struct ShiftAlong {
+struct ShiftAlong : ShiftInside<Dim> {
     static constexpr auto reads = Fields{crowding, position, velocity, density, density_slope} |
                                   rows_of<VelocitySlope, Dim>() | rows_of<Correction, Dim>();
     static constexpr Fields writes{position, velocity, density};
-    static constexpr When when = When::after_step;
-    ShiftInside<Dim> inside;
 
-    void check() const { inside.check(); }
-    [[nodiscard]] bool open() const { return inside.open(); }
-    void complete(double spacing, auto const& interaction) { inside.complete(spacing, interaction); }
     void operator()(auto& i) const
     {
         const auto s = i[crowding], slope = i[density_slope];
         using V = std::remove_cvref_t<decltype(s[0])>;
-        const Vec<Dim, V> d = inside.bounded(s), w = along_corrected<Dim, V>(i, d);
+        const Vec<Dim, V> d = this->bounded(s), w = along_corrected<Dim, V>(i, d);
         Vec<Dim, V> change{};
         each_row(
             rows_of<VelocitySlope, Dim>(), [&](auto row, int k) __attribute__((always_inline)) {

@@ -104,16 +104,10 @@ struct ShiftInside {
 };
 /// The same; where the least eigenvalue of the surface moment is below 0.75, along the surface only.
 template <int Dim>
-struct ShiftAtSurface {
+struct ShiftAtSurface : ShiftInside<Dim> {
     static constexpr auto reads = Fields{crowding, surface_slope, position} | rows_of<SurfaceMoment, Dim>();
-    static constexpr Fields writes{position};
-    static constexpr When when = When::after_step;
-    ShiftInside<Dim> inside;
     static constexpr double threshold = 0.75; ///< of the eigenvalue [-] (Sun et al. 2017, sec. 3.3)
 
-    void check() const { inside.check(); }
-    [[nodiscard]] bool open() const { return inside.open(); }
-    void complete(double spacing, auto const& interaction) { inside.complete(spacing, interaction); }
     void operator()(auto& i) const
     {
         const auto s = i[crowding], n = i[surface_slope];
@@ -126,7 +120,7 @@ struct ShiftAtSurface {
             });
         const V n2 = n.squaredNorm();
         const Vec<Dim, V> along = s - (s.dot(n) / where(n2 > 0, n2, V(1))) * n;
-        i[position] += inside.bounded(where(Factored<Dim, V>(a).least() > 0, Vec<Dim, V>(s), along));
+        i[position] += this->bounded(where(Factored<Dim, V>(a).least() > 0, Vec<Dim, V>(s), along));
     }
 };
 
