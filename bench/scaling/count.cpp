@@ -28,6 +28,7 @@ double cpu() // of the thread, and each virtual rank is one [s]
 }
 
 constexpr int a_node[] = {12, 36};       // ranks
+constexpr std::int64_t a_record = 2;     // of a particle in reach, in pairs: page.py, constants measured here
 constexpr std::size_t values[] = {8, 5}; // of a particle in a message, by species
 
 auto timed(double& seconds, auto const& f)
@@ -81,7 +82,9 @@ struct Row {
     std::int64_t by_number = 0, later = 0; ///< pairs with the first cuts; with these cuts when the next look is due
     std::array<std::int64_t, 2> out{}, in{}, out_particles{}, in_particles{};
     std::int64_t wall_cells = 0;
-    std::int64_t tasks = 0, patches = 0;        ///< tasks of an evaluation; patches of water in messages that go out
+    std::int64_t reach = 0,
+                 patches =
+                     0; ///< particles that the tasks of an evaluation read; patches of water in messages that go out
     std::array<std::int64_t, 2> free{}, late{}; ///< pairs of water, for nodes of 12, of 36: of cells that see no marker
                                                 ///< and no water of other nodes; that see no marker of other nodes
     std::array<std::int64_t, 2> walls{};        ///< pairs of wall cells that see no water of other nodes
@@ -126,7 +129,7 @@ public:
         row.meet = own() - begin;
         row.meeting = ranks_.asked() - before;
         row.pairs = count_pairs();
-        row.inner = inner_, row.free = free_, row.late = late_, row.walls = walls_;
+        row.inner = inner_, row.reach = reach_, row.free = free_, row.late = late_, row.walls = walls_;
         describe(row);
         exchange(row);
         const auto left = parts_.report().moved;
@@ -233,13 +236,17 @@ private:
     std::int64_t count_pairs()
     {
         std::int64_t all = 0;
-        inner_ = 0, free_ = late_ = walls_ = {};
+        inner_ = 0, reach_ = 0, free_ = late_ = walls_ = {};
         cost_.clear();
         for (int s = 0; s < 2; ++s)
             for (std::size_t k = 0; k < bins_[std::size_t(s)].cells(); ++k) {
                 const auto cell = bins_[std::size_t(s)].cell(k);
                 bool sees_marker = false, sees_water = false;
                 const auto n = pairs_of(s, 0, k, sees_water) + (s == 0 ? pairs_of(0, 1, k, sees_marker) : 0);
+                std::int64_t reach = 0;
+                for (int q = 0; q < 2 - s && n > 0; ++q)
+                    reach += in_reach(cell, bins_[std::size_t(q)], parts_.halo(q).bins(), grid_);
+                reach_ += reach;
                 bool waits = false;
                 std::array<std::array<bool, 2>, 2> waits_far{}; // by source, by node
                 each_cell_around(cell, grid_, [&](Index<3> const& c) {
@@ -257,7 +264,9 @@ private:
                     if (s == 0 && !waits_far[1][node]) late_[node] += n;
                 }
                 const std::int64_t here = bins_[std::size_t(s)].end(k) - bins_[std::size_t(s)].begin(k);
-                cost_.push_back({along_curve<3>(cell), n + std::int64_t(Balance{}.a_particle) * here});
+                // The time of its task, and what is added to it, in pairs: as System::cut_by_cost does.
+                const std::int64_t cost = n + a_record * reach + std::int64_t(Balance{}.a_particle) * here;
+                cost_.push_back({along_curve<3>(cell), cost});
                 all += n;
                 if (!waits) inner_ += n;
             }
@@ -317,7 +326,6 @@ private:
                         ++row.links[n];
                     }
             row.bytes += std::int64_t(h.bytes());
-            row.tasks += std::int64_t(bins_[k].cells());
             if (s == 0)
                 for (auto const& l : h.out()) row.patches += std::int64_t(l.patch.size());
         }
@@ -364,7 +372,7 @@ private:
     std::array<P, 2> particles_;
     std::array<Binning<3>, 2> bins_;
     std::vector<CellCost> cost_;
-    std::int64_t inner_ = 0;
+    std::int64_t inner_ = 0, reach_ = 0;
     std::array<std::int64_t, 2> free_{}, late_{}, walls_{};
 };
 
@@ -372,13 +380,13 @@ void write(std::vector<Row> const& rows, std::string const& file)
 {
     std::ofstream to(file);
     to << "particles,cells,pairs,inner,by_number,later,out_0,out_1,in_0,in_1,out_particles_0,out_particles_1,in_particles_0,"
-          "in_particles_1,first_0,first_1,far_12,far_36,links_12,links_36,tasks,patches,free_12,free_36,late_12,late_36,walls_12,walls_36,wall_cells,moved,bytes,meet,cut,copy,start_reductions,start_wide,start_scatters,start_parcels,start_sent,"
+          "in_particles_1,first_0,first_1,far_12,far_36,links_12,links_36,reach,patches,free_12,free_36,late_12,late_36,walls_12,walls_36,wall_cells,moved,bytes,meet,cut,copy,start_reductions,start_wide,start_scatters,start_parcels,start_sent,"
           "meet_scatters,meet_parcels,meet_sent,cut_reductions,cut_wide,cut_bytes\n";
     for (auto const& r : rows) {
         to << r.particles << ',' << r.cells << ',' << r.pairs << ',' << r.inner << ',' << r.by_number << ',' << r.later;
         for (auto const* a : {&r.out, &r.in, &r.out_particles, &r.in_particles, &r.first, &r.far, &r.links})
             to << ',' << (*a)[0] << ',' << (*a)[1];
-        to << ',' << r.tasks << ',' << r.patches;
+        to << ',' << r.reach << ',' << r.patches;
         for (auto const* a : {&r.free, &r.late, &r.walls}) to << ',' << (*a)[0] << ',' << (*a)[1];
         to << ',' << r.wall_cells;
         to << ',' << r.moved << ',' << r.bytes << ',' << r.meet << ',' << r.cut << ',' << r.copy;

@@ -33,7 +33,7 @@ class Machine:
     """What this machine takes, by measurement."""
 
     pair: float  # a directed pair, in the tasks of cells [s]
-    task: float  # a cell and evaluation, as many pairs as it may have: its rows at edges, its part of lists [s]
+    record: float  # a particle in reach of a task of a cell, in an evaluation [s]
     particle: float  # a particle and evaluation, outside of these tasks [s]
     memory: float  # a byte from one process to another of the same node [s]
     meet: float  # lists of who needs what: a particle that is sent or received, at a rebuild [s]
@@ -104,7 +104,7 @@ def of_a_rank(row, of_node, network, machine, ranks):
     """(work, handing over, waiting that is not hidden, meeting) of one rank in a step.
     of_node: bytes that all ranks of its node send to other nodes"""
     n = machine.evaluations
-    work = n * (machine.pair * row["later"] + machine.particle * row["particles"] + machine.task * row["tasks"])
+    work = n * (machine.pair * row["later"] + machine.particle * row["particles"] + machine.record * row["reach"])
     if ranks == 1:
         return work, 0.0, 0.0, 0.0
     values = 8 * (row["out_particles_0"] + row["in_particles_0"]) + 5 * (row["out_particles_1"] + row["in_particles_1"])
