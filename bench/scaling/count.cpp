@@ -85,10 +85,12 @@ struct Row {
     std::int64_t reach = 0,
                  patches =
                      0; ///< particles that the tasks of an evaluation read; patches of water in messages that go out
-    std::array<std::int64_t, 2> free{}, late{}; ///< pairs of water, for nodes of 12, of 36: of cells that see no marker
-                                                ///< and no water of other nodes; that see no marker of other nodes
-    std::array<std::int64_t, 2> walls{};        ///< pairs of wall cells that see no water of other nodes
-    std::array<std::int64_t, 2> first{};        ///< particles sent with the first cuts
+    /// For nodes of 12, of 36: pairs of cells of water that see no marker and wait for the water of so many ranks of other
+    /// nodes, the last: or more; of those that see no marker of other nodes.
+    std::array<std::array<std::int64_t, 6>, 2> free{};
+    std::array<std::int64_t, 2> late{};
+    std::array<std::int64_t, 2> walls{}; ///< pairs of wall cells that see no water of other nodes
+    std::array<std::int64_t, 2> first{}; ///< particles sent with the first cuts
     std::array<std::int64_t, 2> far{}; ///< values sent to other nodes in an evaluation, of nodes of 12 and of 36 ranks
     std::array<std::int64_t, 2> links{}; ///< messages that go there
     std::int64_t moved = 0, bytes = 0;   ///< particles that have left until the next look; memory of the halo
@@ -236,7 +238,7 @@ private:
     std::int64_t count_pairs()
     {
         std::int64_t all = 0;
-        inner_ = 0, reach_ = 0, free_ = late_ = walls_ = {};
+        inner_ = 0, reach_ = 0, free_ = {}, late_ = walls_ = {};
         cost_.clear();
         for (int s = 0; s < 2; ++s)
             for (std::size_t k = 0; k < bins_[std::size_t(s)].cells(); ++k) {
@@ -248,20 +250,22 @@ private:
                     reach += in_reach(cell, bins_[std::size_t(q)], parts_.halo(q).bins(), grid_);
                 reach_ += reach;
                 bool waits = false;
-                std::array<std::array<bool, 2>, 2> waits_far{}; // by source, by node
+                std::array<std::array<std::set<int>, 2>, 2>
+                    far; // ranks of other nodes that are waited for: by source, by node
                 each_cell_around(cell, grid_, [&](Index<3> const& c) {
                     for (std::size_t q = 0; q < 2 - std::size_t(s); ++q) {
                         if (parts_.halo(int(q)).bins().find(c) < 0) continue;
                         waits = true;
+                        const int owner = parts_.owner(c);
                         for (std::size_t node = 0; node < 2; ++node)
-                            if (parts_.owner(c) / a_node[node] != ranks_.rank() / a_node[node])
-                                waits_far[q][node] = true;
+                            if (owner / a_node[node] != ranks_.rank() / a_node[node]) far[q][node].insert(owner);
                     }
                 });
                 for (std::size_t node = 0; node < 2; ++node) {
-                    if (s == 1 && !waits_far[0][node]) walls_[node] += n;
-                    if (s == 0 && !waits_far[0][node] && !sees_marker) free_[node] += n;
-                    if (s == 0 && !waits_far[1][node]) late_[node] += n;
+                    const std::size_t ranks = far[0][node].size();
+                    if (s == 1 && ranks == 0) walls_[node] += n;
+                    if (s == 0 && !sees_marker) free_[node][std::min(ranks, free_[node].size() - 1)] += n;
+                    if (s == 0 && far[1][node].empty()) late_[node] += n;
                 }
                 const std::int64_t here = bins_[std::size_t(s)].end(k) - bins_[std::size_t(s)].begin(k);
                 // The time of its task, and what is added to it, in pairs: as System::cut_by_cost does.
@@ -373,21 +377,25 @@ private:
     std::array<Binning<3>, 2> bins_;
     std::vector<CellCost> cost_;
     std::int64_t inner_ = 0, reach_ = 0;
-    std::array<std::int64_t, 2> free_{}, late_{}, walls_{};
+    std::array<std::array<std::int64_t, 6>, 2> free_{};
+    std::array<std::int64_t, 2> late_{}, walls_{};
 };
 
 void write(std::vector<Row> const& rows, std::string const& file)
 {
     std::ofstream to(file);
     to << "particles,cells,pairs,inner,by_number,later,out_0,out_1,in_0,in_1,out_particles_0,out_particles_1,in_particles_0,"
-          "in_particles_1,first_0,first_1,far_12,far_36,links_12,links_36,reach,patches,free_12,free_36,late_12,late_36,walls_12,walls_36,wall_cells,moved,bytes,meet,cut,copy,start_reductions,start_wide,start_scatters,start_parcels,start_sent,"
+          "in_particles_1,first_0,first_1,far_12,far_36,links_12,links_36,reach,patches,late_12,late_36,walls_12,walls_36,"
+          "free_12_0,free_12_1,free_12_2,free_12_3,free_12_4,free_12_5,free_36_0,free_36_1,free_36_2,free_36_3,free_36_4,free_36_5,wall_cells,moved,bytes,meet,cut,copy,start_reductions,start_wide,start_scatters,start_parcels,start_sent,"
           "meet_scatters,meet_parcels,meet_sent,cut_reductions,cut_wide,cut_bytes\n";
     for (auto const& r : rows) {
         to << r.particles << ',' << r.cells << ',' << r.pairs << ',' << r.inner << ',' << r.by_number << ',' << r.later;
         for (auto const* a : {&r.out, &r.in, &r.out_particles, &r.in_particles, &r.first, &r.far, &r.links})
             to << ',' << (*a)[0] << ',' << (*a)[1];
         to << ',' << r.reach << ',' << r.patches;
-        for (auto const* a : {&r.free, &r.late, &r.walls}) to << ',' << (*a)[0] << ',' << (*a)[1];
+        for (auto const* a : {&r.late, &r.walls}) to << ',' << (*a)[0] << ',' << (*a)[1];
+        for (auto const& of_node : r.free)
+            for (auto const n : of_node) to << ',' << n;
         to << ',' << r.wall_cells;
         to << ',' << r.moved << ',' << r.bytes << ',' << r.meet << ',' << r.cut << ',' << r.copy;
         to << ',' << r.start.reductions << ',' << r.start.wide << ',' << r.start.scatters << ',' << r.start.parcels

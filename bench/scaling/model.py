@@ -100,6 +100,23 @@ def far_of(row, network, ranks):
 BOX = 48  # bytes: the box of a patch
 
 
+def waiting(water, walls, of_walls, free, late, row):
+    """Time of an evaluation in which a rank has nothing to run. Messages of other nodes come evenly over the time `water` for
+    which their cards send, so that a cell that waits for j of them can run at water j / (j + 1) on average.
+    of_walls: tasks of walls that wait for no other node; free[j]: of water that see no marker; late: of water that wait for no
+    marker of another node"""
+    t = of_walls
+    for j, tasks in enumerate(free):
+        t = max(t, water * j / (j + 1)) + tasks
+    done = of_walls + sum(free)
+    if row["wall_cells"] == 0 and row["in_1"] == 0:  # the last message lets its share of cells run
+        return max(t, water + sum(free[1:]) / max(1, row["in_0"])) - done
+    exposed = max(t, water) - done
+    if row["in_1"] > 0:  # markers are sent when the last water has come to their owner
+        exposed += max(0.0, walls - max(0.0, late - sum(free)))
+    return exposed
+
+
 def of_a_rank(row, of_node, network, machine, ranks):
     """(work, handing over, waiting that is not hidden, meeting) of one rank in a step.
     of_node: bytes that all ranks of its node send to other nodes"""
@@ -115,16 +132,12 @@ def of_a_rank(row, of_node, network, machine, ranks):
     wire = lambda part: network.latency + of_node * network.byte * part
     of_water = 8 * 8 * row["out_particles_0"] / max(1, sent)
     water, walls = wire(of_water), wire(1 - of_water)
-    # While water flies cells of walls run that wait for no other node, then cells of water that see no marker either;
-    # while walls fly, cells of water that wait for no markers of another node, but those that have run.
-    some = network.node in (12, 36)
-    of_walls, free, late = (machine.pair * (row[f"{k}_{network.node}"] if some else row["inner"] * (k != "walls"))
-                            for k in ("walls", "free", "late"))
-    left = water - of_walls
-    ran = min(free, max(0.0, left))
-    exposed = n * max(0.0, left - ran)
-    if row["in_1"] > 0:
-        exposed += n * max(0.0, walls - (late - ran))
+    of = lambda what: machine.pair * row[f"{what}_{network.node}"]
+    if network.node in (12, 36):
+        free = [machine.pair * row[f"free_{network.node}_{j}"] for j in range(6)]
+        exposed = n * waiting(water, walls, of("walls"), free, of("late"), row)
+    else:  # one node, all messages are near
+        exposed = n * max(0.0, water + walls - machine.pair * row["inner"])
     # What stays within the node is copied by the ranks themselves.
     over = n * (machine.copy * values + network.overhead * messages + machine.memory * (sent - far))
     # Boxes of patches: nothing runs meanwhile.
