@@ -33,7 +33,8 @@ class Machine:
     """What this machine takes, by measurement."""
 
     pair: float  # a directed pair, in the tasks of cells [s]
-    record: float  # a particle in reach of a task of a cell, in an evaluation [s]
+    record: float  # a particle in reach of a task of a cell, in the task [s]
+    listed: float  # the same and evaluation, outside of tasks: lists [s]
     particle: float  # a particle and evaluation, outside of these tasks [s]
     memory: float  # a byte from one process to another of the same node [s]
     meet: float  # lists of who needs what: a particle that is sent or received, at a rebuild [s]
@@ -121,7 +122,7 @@ def of_a_rank(row, of_node, network, machine, ranks):
     """(work, handing over, waiting that is not hidden, meeting) of one rank in a step.
     of_node: bytes that all ranks of its node send to other nodes"""
     n = machine.evaluations
-    work = n * (machine.pair * row["later"] + machine.particle * row["particles"] + machine.record * row["reach"])
+    work = n * (machine.pair * row["later"] + machine.particle * row["particles"] + (machine.record + machine.listed) * row["reach"])
     if ranks == 1:
         return work, 0.0, 0.0, 0.0
     values = 8 * (row["out_particles_0"] + row["in_particles_0"]) + 5 * (row["out_particles_1"] + row["in_particles_1"])
@@ -132,12 +133,14 @@ def of_a_rank(row, of_node, network, machine, ranks):
     wire = lambda part: network.latency + of_node * network.byte * part
     of_water = 8 * 8 * row["out_particles_0"] / max(1, sent)
     water, walls = wire(of_water), wire(1 - of_water)
-    of = lambda what: machine.pair * row[f"{what}_{network.node}"]
+    # A pair of a task that runs meanwhile, with its part of the records that the task reads.
+    pair = machine.pair + machine.record * row["reach"] / max(1, row["later"])
+    of = lambda what: pair * row[f"{what}_{network.node}"]
     if network.node in (12, 36):
-        free = [machine.pair * row[f"free_{network.node}_{j}"] for j in range(6)]
+        free = [pair * row[f"free_{network.node}_{j}"] for j in range(6)]
         exposed = n * waiting(water, walls, of("walls"), free, of("late"), row)
     else:  # one node, all messages are near
-        exposed = n * max(0.0, water + walls - machine.pair * row["inner"])
+        exposed = n * max(0.0, water + walls - pair * row["inner"])
     # What stays within the node is copied by the ranks themselves.
     over = n * (machine.copy * values + network.overhead * messages + machine.memory * (sent - far))
     # Boxes of patches: nothing runs meanwhile.

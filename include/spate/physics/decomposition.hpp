@@ -10,6 +10,7 @@
 #include "spate/physics/sweep.hpp"
 
 #include <chrono>
+#include <ctime>
 #include <functional>
 #include <map>
 #include <optional>
@@ -37,7 +38,8 @@ public:
     using Flying = std::remove_cvref_t<decltype(std::declval<R const&>().exchange({}, {}, 0))>;
     static constexpr auto species = std::size_t(Species);
 
-    explicit Decomposition(R ranks) : ranks_(std::move(ranks)) {}
+    /// \param by_cpu  whether tasks cost the time of their processor, not that of the clock
+    explicit Decomposition(R ranks, bool by_cpu = false) : ranks_(std::move(ranks)), by_cpu_(by_cpu) {}
 
     [[nodiscard]] R const& ranks() const { return ranks_; }
     [[nodiscard]] Shares<Dim> const& shares() const { return shares_; }
@@ -272,7 +274,7 @@ private:
         std::vector<S> out, in; // persistent
         std::size_t count = 0;
         std::optional<Flying> flying;
-        std::vector<char> missing; // by link
+        std::vector<char> missing;                                            // by link
         std::function<void(std::vector<std::int32_t> const&, S const*)> land; // all particles of a link
     };
     /// The tasks of a target: how many messages each cell waits for, and which cells can run.
@@ -377,6 +379,13 @@ private:
         air.missing[std::size_t(l)] = 0;
         return l;
     }
+    [[nodiscard]] std::int64_t now() const // [ns]
+    {
+        if (!by_cpu_) return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
+        timespec t{};
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+        return 1'000'000'000 * std::int64_t(t.tv_sec) + std::int64_t(t.tv_nsec);
+    }
     void compute(int s, std::span<std::int32_t const> cells, auto const& task, auto const& backend, bool early)
     {
         using Clock = std::chrono::steady_clock;
@@ -384,9 +393,9 @@ private:
         auto& cost = cost_[std::size_t(s)];
         backend.for_each(cells.size(), [&](std::size_t k) {
             const auto cell = std::size_t(cells[k]);
-            const auto begin = Clock::now();
+            const auto begin = now();
             task(cell);
-            cost[cell] += std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - begin).count();
+            cost[cell] += now() - begin;
         });
         report_.busy += std::chrono::duration<double>(Clock::now() - start).count();
         report_.tasks += std::int64_t(cells.size());
@@ -394,6 +403,7 @@ private:
     }
 
     R ranks_;
+    bool by_cpu_;
     Shares<Dim> shares_;
     std::array<Halo<Dim, T>, species> halo_;
     std::array<std::int32_t, species> first_{}; ///< record of the first of others

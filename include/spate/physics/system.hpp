@@ -77,7 +77,7 @@ public:
     [[gnu::cold]] System(P physics, B boundary, Workers backend, Neighbours neighbours, bool saves)
         : physics_(std::move(physics)), boundary_(std::move(boundary)), backend_(backend), neighbours_(neighbours),
           saves_(saves), grid_({}, Edges<dim>(Edge::open), 1, 1, 1), terms_(M::terms_of(physics_, boundary_)),
-          parts_(ranks_of(backend_))
+          parts_(parts_of(backend_))
     {
         for_each(P::uniform, [&](auto f) { mobile().value(f) = physics_.uniforms[f]; });
     }
@@ -1378,6 +1378,11 @@ private:
         auto& me = const_cast<System&>(*this); // records are no state
         me.template pack<s, copied>();
         me.parts_.finish(s);
+    }
+    static Parts parts_of(Workers const& workers)
+    {
+        if constexpr (alone) return Parts(ranks_of(workers));
+        else return Parts(ranks_of(workers), workers.balance.by_cpu);
     }
     template <int s, Mask terms, Mask allowed>
     static constexpr Mask read_from(int q)
