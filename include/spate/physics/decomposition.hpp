@@ -182,15 +182,14 @@ public:
             later = due(then.target, then.cells, then.sources, then.may);
             all |= then.sources;
         }
-        auto in_the_air = [&](auto const& is) {
-            for (int q = 0; q < Species; ++q)
-                if ((all >> q & 1) != 0 && air_[std::size_t(q)].flying && is(air_[std::size_t(q)])) return true;
-            return false;
-        };
         auto is_missing = [&] {
-            return in_the_air([](Air const& air) {
-                return std::find(air.missing.begin(), air.missing.end(), 1) != air.missing.end();
-            });
+            for (int q = 0; q < Species; ++q) {
+                auto const& air = air_[std::size_t(q)];
+                if ((all >> q & 1) != 0 && air.flying &&
+                    std::find(air.missing.begin(), air.missing.end(), 1) != air.missing.end())
+                    return true;
+            }
+            return false;
         };
         auto look = [&](bool patient) { // at what has come
             bool any = true;
@@ -208,9 +207,11 @@ public:
                 }
             }
         };
-        const std::size_t some = 4 * std::size_t(backend.threads());
+        // Between two looks; threads that meet after every few tasks would do little else.
+        const auto threads = std::size_t(backend.threads());
+        const std::size_t some = threads == 1 ? 4 : std::max(4 * threads, cells / 16);
         while (mine.left > 0) { // what no task here waits for may fly on
-            const bool waiting = in_the_air([](Air const&) { return true; });
+            const bool waiting = is_missing();
             if (waiting) look(mine.idle() && later.idle());
             if (!mine.idle()) {
                 const auto some_cells = mine.next(waiting ? some : cells);
