@@ -207,10 +207,13 @@ def lost(s):
 
 def extrapolated(steps, ranks, network, machine, law="faces"):
     """Efficiency at more ranks, of as many particles each. What a rank loses by itself and with its neighbours goes on by the
-    law as among the counted ranks; what all ranks do together follows from the network, of as many ranks."""
+    law as among the counted ranks, and from the last of them where that has lost more than the law says; what all ranks do
+    together follows from the network, of as many ranks."""
     of = LAWS[law]
     a, b = fitted([(s.ranks, lost(s)) for s in steps], of)
     work = sum(s.work for s in steps) / len(steps)
     together = (machine.reductions + 5 * machine.rebuilds) * all_reduce(network, ranks, machine)
     together += machine.rebuilds / machine.looks * cuts(network, ranks, machine)
-    return 1 / (a + b * of(ranks) + together / work)
+    last = steps[-1]
+    above = max(0.0, lost(last) - a - b * of(last.ranks))
+    return 1 / (a + above + b * of(ranks) + together / work)
