@@ -1175,7 +1175,8 @@ private:
     {
         static_assert(plan.complete,
                       "spate: terms wait for each other's fields; let one of them write a field of its own");
-        [&]<std::size_t... k>(std::index_sequence<k...>) {
+        [&]<std::size_t... k>(std::index_sequence<k...>)
+        {
             (stage<plan.stage[k], ahead_in(plan, int(k)), is_rest(plan, int(k))>(), ...);
         }
         (std::make_index_sequence<std::size_t(plan.count)>{});
@@ -1418,8 +1419,8 @@ private:
             const std::size_t cells = species<s>().bins.cells();
             if constexpr (alone) backend_.for_each(cells, one);
             else {
-                constexpr unsigned sources = (read_from<s, terms, allowed>(0) != 0 ? 1u : 0u) |
-                                             (read_from<s, terms, allowed>(1) != 0 ? 2u : 0u);
+                constexpr unsigned sources =
+                    (read_from<s, terms, allowed>(0) != 0 ? 1u : 0u) | (read_from<s, terms, allowed>(1) != 0 ? 2u : 0u);
                 if constexpr (ahead.terms == 0) parts_.run(s, cells, sources, one, backend_, rest);
                 else
                     with_task<0, ahead.terms, ~Mask(0)>([&](auto const& later) {
