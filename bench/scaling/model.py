@@ -57,6 +57,7 @@ class Step:
     dearest: float  # of the rank that takes longest: imbalance is in it
     messages: float  # handing values over: packing, overheads, and what is not hidden
     exposed: float  # of these: waiting that no work hides
+    waits: float  # the same of a rank, on average
     meetings: float  # at rebuilds
     agreement: float  # reductions
     balance: float  # looking for cuts
@@ -176,6 +177,7 @@ def step(rows, network, machine):
         dearest=longest[0],
         messages=longest[1] + longest[2],
         exposed=longest[2],
+        waits=sum(e[2] for e in each) / ranks,
         meetings=longest[3],
         agreement=agreement,
         balance=balance,

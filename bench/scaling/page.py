@@ -151,6 +151,8 @@ def write(tables, measured, steps, context):
     )
     ranks_of = lambda keys: ", ".join(size(k[0]) for k in keys)
 
+    worst = of(near_1e4[-1])
+
     # ---- where a step goes
     parts = []
     for key in (near_1e5[-1], near_1e4[-1], *(k for k in ((4096, 7, 2),) if k in tables)):
@@ -245,7 +247,8 @@ def write(tables, measured, steps, context):
     )
     text = TEMPLATE.format(
         machine=f"{context.get('cpu', '?')}, {context.get('compiler', '?')} -O3 -march=native, commit {context.get('commit', '?')}",
-        ranks_1e5=ranks_of(near_1e5), ranks_1e4=ranks_of(near_1e4), weak=weak_table, foretold=foretold_table, parts=parts_table, strong=strong_table, idle=idle_table,
+        ranks_1e5=ranks_of(near_1e5), ranks_1e4=ranks_of(near_1e4), weak=weak_table, foretold=foretold_table, worst_wait=percent(worst.exposed / worst.time), mean_wait=percent(worst.waits / worst.time),
+        worst_ranks=size(worst.ranks), parts=parts_table, strong=strong_table, idle=idle_table,
         counts=table_of_counts(tables), measured=measured_table, held=held, constants=constants, largest=size(biggest[0]),
         largest_load=size(mean(rows, "particles")), million=f"{1e3 * million:.1f}",
         cells="[cells.md](cells.md)" if (DOCS / "cells.md").exists() else "`bash bench/run.sh cell_size`",
@@ -332,7 +335,7 @@ there.
 
 Where a count is darker than foretold, its slowest rank is of a sort that fewer ranks do not have: of a node in a sheet of water on a
 wall, as thick as a cell or two. All its cells see the wall, so that they wait for walls that wait for water, and its node has a large
-surface: 15.7 % of the step of 3,012 ranks is that wait, 0.3 % on the mean of all ranks.
+surface: {worst_wait} of the step of {worst_ranks} ranks is that wait, {mean_wait} on the mean of all ranks.
 
 Where a step goes, MODELLED on the first network:
 
