@@ -163,9 +163,9 @@ def peer(case, scheme, n):
         command = [sys.executable, __file__, "--one", case, times or "0", *arguments, "-d", scratch + "/out"]
         done = subprocess.run(command, capture_output=True, text=True, env=environment, cwd=scratch)
     lines = [line for line in done.stdout.splitlines() if line.startswith("RESULT ")]
-    if not lines:
+    if not lines and "diverging" not in done.stdout + done.stderr:
         raise RuntimeError(f"{' '.join(command)}: {done.stdout[-500:]}{done.stderr[-2000:]}")
-    return json.loads(lines[0][7:])
+    return json.loads(lines[0][7:]) if lines else None
 
 
 def ours(executable, family, n):
@@ -219,8 +219,13 @@ def main():
     for n in map(int, args.levels.split(",")):
         best = {}
         for _ in range(args.repeats):
-            for name, run in runners.items():
-                now = run(n) | {"n": n}
+            for name, run in list(runners.items()):
+                now = run(n)
+                if now is None:
+                    print(f"{name:48} n {n:4}: diverges", flush=True)
+                    del runners[name]
+                    continue
+                now |= {"n": n}
                 if name not in best or now["cpu_s"] < best[name]["cpu_s"]:
                     best[name] = now
         for name, run in best.items():
@@ -232,7 +237,7 @@ def main():
         writer.writerow(("code", "n", "N", "steps", "cpu_s", "error"))
         writer.writerows((name, r["n"], r["N"], r["steps"], f"{r['cpu_s']:.5g}", f"{r['error']:.6g}") for name, ladder in ladders.items() for r in ladder)
     for error in (0.03, 0.01):
-        found = {name: time_to(error, ladder) for name, ladder in ladders.items()}
+        found = {name: time_to(error, ladder) for name, ladder in ladders.items() if ladder}
         print(f"time to {100 * error:g} %: " + ", ".join(f"{name} {how} {'' if t is None else f'{t:.3g} s'}".replace("  ", " ") for name, (t, how) in found.items()))
         times = {name: t for name, (t, how) in found.items() if t is not None}
         theirs, own = ({k: t for k, t in times.items() if k.startswith(who)} for who in ("PySPH", "spate"))
