@@ -89,7 +89,7 @@ def sweep(anew):
     for scene, steps in (("seed", 10), ("granular", 10)):
         for ranks, threads in ((1, 1), (1, 2), (2, 1), (2, 2)):
             for cell in (1, 2, 4, 8, 16, 32):
-                run = on_processes(ranks, scene=scene, steps=steps, repeats=1, cell=cell, threads=threads)
+                run = on_processes(ranks, scene=scene, steps=steps, repeats=2, cell=cell, threads=threads)
                 found.append({k: run[k] for k in ("scene", "ranks", "threads", "cell", "ms_step", "markers", "imbalance")})
                 print(f"  {scene} {ranks} x {threads}, cell {cell}: {run['ms_step']:.2f} ms", flush=True)
     kept.write_text(json.dumps(found, indent=1))
