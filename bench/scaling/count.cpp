@@ -27,12 +27,53 @@ double cpu() // of the thread, and each virtual rank is one [s]
     return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
 }
 
-constexpr int a_node[] = {12, 36}; // ranks
+constexpr int a_node[] = {12, 36};       // ranks
+constexpr std::int64_t a_record = 2;     // of a particle in reach, in pairs: page.py, constants measured here
+constexpr std::size_t values[] = {8, 5}; // of a particle in a message, by species
+
+auto timed(double& seconds, auto const& f)
+{
+    const double begin = cpu();
+    auto result = f();
+    seconds += cpu() - begin;
+    return result;
+}
+/// Virtual ranks that tell their own time apart: they copy each message twice, and hand the processor on.
+class Timed : public VirtualRanks::Rank {
+public:
+    using R = VirtualRanks::Rank;
+    explicit Timed(R on) : R(on) {}
+    [[nodiscard]] double inside() const { return *inside_; }
+
+    using Inner = std::remove_cvref_t<decltype(std::declval<R const&>().exchange({}, {}, 0))>;
+    struct Flown {
+        Inner inner;
+        double* inside;
+        int poll()
+        {
+            return timed(*inside, [&] { return inner.poll(); });
+        }
+        int next()
+        {
+            return timed(*inside, [&] { return inner.next(); });
+        }
+    };
+    [[nodiscard]] Flown exchange(std::span<Packet const> out, std::span<Packet const> in, int tag) const
+    {
+        return {timed(*inside_, [&] { return R::exchange(out, in, tag); }), inside_.get()};
+    }
+    [[nodiscard]] std::vector<Parcel> scatter(std::vector<Parcel> parcels) const
+    {
+        return timed(*inside_, [&] { return R::scatter(std::move(parcels)); });
+    }
+
+private:
+    std::shared_ptr<double> inside_ = std::make_shared<double>(0); // [s]
+};
 
 struct Options {
     int ranks = 8, finer = 1, cell = 2;
-    double look = 2e-3;                        ///< time between two looks of the balance, at finer 1 [s]
-    std::array<std::size_t, 2> values{{8, 5}}; ///< of a particle in a message, by species
+    double look = 2e-3; ///< time between two looks of the balance, at finer 1 [s]
     std::string state, table, shares;
 };
 
@@ -41,7 +82,14 @@ struct Row {
     std::int64_t by_number = 0, later = 0; ///< pairs with the first cuts; with these cuts when the next look is due
     std::array<std::int64_t, 2> out{}, in{}, out_particles{}, in_particles{};
     std::int64_t wall_cells = 0;
-    std::array<std::int64_t, 4> near{};  ///< pairs of cells that wait for no other node of 12, of 36: water, then walls
+    std::int64_t reach = 0,
+                 patches =
+                     0; ///< particles that the tasks of an evaluation read; patches of water in messages that go out
+    /// For nodes of 12, of 36: pairs of cells of water that see no marker and wait for the water of so many ranks of other
+    /// nodes, the last: or more; of those that see no marker of other nodes.
+    std::array<std::array<std::int64_t, 6>, 2> free{};
+    std::array<std::int64_t, 2> late{};
+    std::array<std::int64_t, 2> walls{}; ///< pairs of wall cells that see no water of other nodes
     std::array<std::int64_t, 2> first{}; ///< particles sent with the first cuts
     std::array<std::int64_t, 2> far{}; ///< values sent to other nodes in an evaluation, of nodes of 12 and of 36 ranks
     std::array<std::int64_t, 2> links{}; ///< messages that go there
@@ -54,11 +102,11 @@ struct Row {
 template <class T>
 class OneRank {
 public:
-    using R = Counting<VirtualRanks::Rank>;
+    using R = Counting<Timed>;
     using P = Particles<3, T, Fields<Position>, Fields<>>;
 
     OneRank(VirtualRanks::Rank rank, Load const& load, Options const& o)
-        : ranks_(R(rank)), load_(load), o_(o), parts_(ranks_),
+        : time_(rank), ranks_(R(time_)), load_(load), o_(o), parts_(ranks_),
           grid_(Box<3>{{0, 0, 0}, {1, 0.4, 0.5}}, Edges<3>(Edge::open), load.reach() * (1 + skin), 4, o.cell)
     {}
     Row run()
@@ -78,12 +126,12 @@ public:
         row.cutting = ranks_.asked() - row.start;
         go_home();
         const auto before = ranks_.asked();
-        begin = cpu();
+        begin = own();
         meet();
-        row.meet = cpu() - begin;
+        row.meet = own() - begin;
         row.meeting = ranks_.asked() - before;
         row.pairs = count_pairs();
-        row.inner = inner_, row.near = near_;
+        row.inner = inner_, row.reach = reach_, row.free = free_, row.late = late_, row.walls = walls_;
         describe(row);
         exchange(row);
         const auto left = parts_.report().moved;
@@ -190,32 +238,46 @@ private:
     std::int64_t count_pairs()
     {
         std::int64_t all = 0;
-        inner_ = 0, near_ = {};
+        inner_ = 0, reach_ = 0, free_ = {}, late_ = walls_ = {};
         cost_.clear();
         for (int s = 0; s < 2; ++s)
             for (std::size_t k = 0; k < bins_[std::size_t(s)].cells(); ++k) {
                 const auto cell = bins_[std::size_t(s)].cell(k);
-                const auto n = pairs_of(s, 0, k) + (s == 0 ? pairs_of(0, 1, k) : 0);
+                bool sees_marker = false, sees_water = false;
+                const auto n = pairs_of(s, 0, k, sees_water) + (s == 0 ? pairs_of(0, 1, k, sees_marker) : 0);
+                std::int64_t reach = 0;
+                for (int q = 0; q < 2 - s && n > 0; ++q)
+                    reach += in_reach(cell, bins_[std::size_t(q)], parts_.halo(q).bins(), grid_);
+                reach_ += reach;
                 bool waits = false;
-                std::array<bool, 2> waits_far{};
+                std::array<std::array<std::set<int>, 2>, 2>
+                    far; // ranks of other nodes that are waited for: by source, by node
                 each_cell_around(cell, grid_, [&](Index<3> const& c) {
-                    bool foreign = false;
-                    for (int q = 0; q < 2 - s; ++q) foreign = foreign || parts_.halo(q).bins().find(c) >= 0;
-                    if (!foreign) return;
-                    waits = true;
-                    for (std::size_t node = 0; node < 2; ++node)
-                        if (parts_.owner(c) / a_node[node] != ranks_.rank() / a_node[node]) waits_far[node] = true;
+                    for (std::size_t q = 0; q < 2 - std::size_t(s); ++q) {
+                        if (parts_.halo(int(q)).bins().find(c) < 0) continue;
+                        waits = true;
+                        const int owner = parts_.owner(c);
+                        for (std::size_t node = 0; node < 2; ++node)
+                            if (owner / a_node[node] != ranks_.rank() / a_node[node]) far[q][node].insert(owner);
+                    }
                 });
-                for (std::size_t node = 0; node < 2; ++node)
-                    if (!waits_far[node]) near_[node + 2 * std::size_t(s)] += n;
+                for (std::size_t node = 0; node < 2; ++node) {
+                    const std::size_t ranks = far[0][node].size();
+                    if (s == 1 && ranks == 0) walls_[node] += n;
+                    if (s == 0 && !sees_marker) free_[node][std::min(ranks, free_[node].size() - 1)] += n;
+                    if (s == 0 && far[1][node].empty()) late_[node] += n;
+                }
                 const std::int64_t here = bins_[std::size_t(s)].end(k) - bins_[std::size_t(s)].begin(k);
-                cost_.push_back({along_curve<3>(cell), n + std::int64_t(Balance{}.a_particle) * here});
+                // The time of its task, and what is added to it, in pairs: as System::cut_by_cost does.
+                const std::int64_t cost = n + a_record * reach + std::int64_t(Balance{}.a_particle) * here;
+                cost_.push_back({along_curve<3>(cell), cost});
                 all += n;
                 if (!waits) inner_ += n;
             }
         return all;
     }
-    std::int64_t pairs_of(int s, int q, std::size_t k)
+    /// \param sees  set if lists of targets in the cell may hold any of the source
+    std::int64_t pairs_of(int s, int q, std::size_t k, bool& sees)
     {
         auto const& at = bins_[std::size_t(s)];
         auto const& halo = parts_.halo(q);
@@ -234,6 +296,7 @@ private:
                 if (found < 0) bins = &halo.bins(), places = &foreign, found = bins->find(cell);
                 if (found < 0) return;
                 const auto there = Skins<3>::particles_of(*bins, std::size_t(found) * per_cell + local, grid_);
+                sees = sees || !there.empty();
                 T const *x = places->x[0], *y = places->x[1], *z = places->x[2];
                 for (auto i = here.first; i < here.last; ++i) {
                     const T xi = targets.x[0][i], yi = targets.x[1][i], zi = targets.x[2][i];
@@ -263,38 +326,48 @@ private:
             for (auto const& l : h.out())
                 for (std::size_t n = 0; n < 2; ++n)
                     if (l.rank / a_node[n] != ranks_.rank() / a_node[n]) {
-                        row.far[n] += std::int64_t(l.particle.size() * o_.values[k]);
+                        row.far[n] += std::int64_t(l.particle.size() * values[k]);
                         ++row.links[n];
                     }
             row.bytes += std::int64_t(h.bytes());
+            if (s == 0)
+                for (auto const& l : h.out()) row.patches += std::int64_t(l.patch.size());
         }
         row.cells = std::int64_t(cells.size());
         row.wall_cells = std::int64_t(bins_[1].cells());
     }
-    /// Values of an evaluation, sent and landed for nothing: what the copying costs.
+    /// Values of an evaluation, sent and landed for nothing: what the copying costs. As in the engine the compiler knows how
+    /// many values a particle has.
+    void exchange(Row& row) { exchange<0>(row), exchange<1>(row); }
+    template <int s>
     void exchange(Row& row)
     {
-        std::array<std::vector<double>, 2> records;
-        for (int s = 0; s < 2; ++s) {
-            const auto k = std::size_t(s), v = o_.values[k];
-            records[k].assign((particles(s).size() + parts_.halo(s).ids().size()) * v, 1);
-            double* const data = records[k].data();
-            double* const beyond = data + particles(s).size() * v;
-            double least = 1;
-            for (int round = 0; round < 3; ++round) { // buffers persist: the first round makes them
-                const double begin = cpu();
-                parts_.send(
-                    s, v, [&](std::int32_t i, double* to) { std::copy_n(data + std::size_t(i) * v, v, to); },
-                    [=](std::int32_t i, double const* from) { std::copy_n(from, v, beyond + std::size_t(i) * v); });
-                parts_.finish(s);
-                least = std::min(least, cpu() - begin);
-            }
-            row.copy += least;
+        constexpr std::size_t v = values[s], stride = 8;
+        std::vector<double> records((particles(s).size() + parts_.halo(s).ids().size()) * stride, 1);
+        double* const data = records.data();
+        double* const beyond = data + particles(s).size() * stride;
+        double least = 1;
+        for (int round = 0; round < 3; ++round) { // buffers persist: the first round makes them
+            const double begin = own();
+            parts_.send(
+                s, v,
+                [&](std::int32_t i, double* to) {
+                    for (std::size_t k = 0; k < v; ++k) to[k] = data[std::size_t(i) * stride + k];
+                },
+                [=](std::int32_t i, double const* from) {
+                    for (std::size_t k = 0; k < v; ++k) beyond[std::size_t(i) * stride + k] = from[k];
+                });
+            parts_.finish(s);
+            least = std::min(least, own() - begin);
         }
+        row.copy += least;
     }
     P& particles(int s) { return particles_[std::size_t(s)]; }
     P const& particles(int s) const { return particles_[std::size_t(s)]; }
 
+    [[nodiscard]] double own() const { return cpu() - time_.inside(); }
+
+    Timed time_;
     R ranks_;
     Load const& load_;
     Options const& o_;
@@ -303,27 +376,32 @@ private:
     std::array<P, 2> particles_;
     std::array<Binning<3>, 2> bins_;
     std::vector<CellCost> cost_;
-    std::int64_t inner_ = 0;
-    std::array<std::int64_t, 4> near_{};
+    std::int64_t inner_ = 0, reach_ = 0;
+    std::array<std::array<std::int64_t, 6>, 2> free_{};
+    std::array<std::int64_t, 2> late_{}, walls_{};
 };
 
 void write(std::vector<Row> const& rows, std::string const& file)
 {
     std::ofstream to(file);
     to << "particles,cells,pairs,inner,by_number,later,out_0,out_1,in_0,in_1,out_particles_0,out_particles_1,in_particles_0,"
-          "in_particles_1,first_0,first_1,far_12,far_36,links_12,links_36,near_12_0,near_36_0,near_12_1,near_36_1,wall_cells,moved,bytes,meet,cut,copy,start_reductions,start_wide,start_scatters,start_parcels,start_sent,"
-          "meet_scatters,meet_parcels,meet_sent,cut_reductions,cut_wide\n";
+          "in_particles_1,first_0,first_1,far_12,far_36,links_12,links_36,reach,patches,late_12,late_36,walls_12,walls_36,"
+          "free_12_0,free_12_1,free_12_2,free_12_3,free_12_4,free_12_5,free_36_0,free_36_1,free_36_2,free_36_3,free_36_4,free_36_5,wall_cells,moved,bytes,meet,cut,copy,start_reductions,start_wide,start_scatters,start_parcels,start_sent,"
+          "meet_scatters,meet_parcels,meet_sent,cut_reductions,cut_wide,cut_bytes\n";
     for (auto const& r : rows) {
         to << r.particles << ',' << r.cells << ',' << r.pairs << ',' << r.inner << ',' << r.by_number << ',' << r.later;
         for (auto const* a : {&r.out, &r.in, &r.out_particles, &r.in_particles, &r.first, &r.far, &r.links})
             to << ',' << (*a)[0] << ',' << (*a)[1];
-        for (auto const n : r.near) to << ',' << n;
+        to << ',' << r.reach << ',' << r.patches;
+        for (auto const* a : {&r.late, &r.walls}) to << ',' << (*a)[0] << ',' << (*a)[1];
+        for (auto const& of_node : r.free)
+            for (auto const n : of_node) to << ',' << n;
         to << ',' << r.wall_cells;
         to << ',' << r.moved << ',' << r.bytes << ',' << r.meet << ',' << r.cut << ',' << r.copy;
         to << ',' << r.start.reductions << ',' << r.start.wide << ',' << r.start.scatters << ',' << r.start.parcels
            << ',' << r.start.sent;
         to << ',' << r.meeting.scatters << ',' << r.meeting.parcels << ',' << r.meeting.sent;
-        to << ',' << r.cutting.reductions << ',' << r.cutting.wide << '\n';
+        to << ',' << r.cutting.reductions << ',' << r.cutting.wide << ',' << r.cutting.widely << '\n';
     }
 }
 

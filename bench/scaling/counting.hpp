@@ -3,6 +3,7 @@
 /// \brief A transport that counts what is asked of it, and hands it on to another.
 #pragma once
 
+#include <spate/cells/skins.hpp>
 #include <spate/core/ranks.hpp>
 
 #include <array>
@@ -28,6 +29,38 @@ struct Asked {
         return a;
     }
 };
+
+/// Particles of a source, here or of others, that the task of a cell may read: those in its patches and in those around. That they
+/// are many is what a small cell costs beside its pairs.
+template <int Dim>
+std::int64_t in_reach(Index<Dim> const& cell, Binning<Dim> const& own, Binning<Dim> const& foreign,
+                      Grid<Dim> const& grid)
+{
+    const int M = grid.cell();
+    std::int64_t n = 0;
+    std::array<std::int32_t, std::size_t(Dim)> period, edge;
+    std::size_t all = 1;
+    for (int c = 0; c < Dim; ++c) {
+        const auto k = std::size_t(c);
+        period[k] = grid.bins(c) / grid.per_range(c);
+        edge[k] = period[k] > 0 ? std::min(M + 2, period[k]) : M + 2;
+        all *= std::size_t(edge[k]);
+    }
+    for (std::size_t q = 0; q < all; ++q) {
+        Index<Dim> patch;
+        std::size_t rest = q;
+        for (std::size_t k = 0; k < std::size_t(Dim); rest /= std::size_t(edge[k]), ++k) {
+            patch[k] = cell[k] * M - 1 + std::int32_t(rest % std::size_t(edge[k]));
+            if (period[k] > 0) patch[k] = (patch[k] % period[k] + period[k]) % period[k];
+        }
+        for (auto const* bins : {&own, &foreign})
+            if (bins->find(cell_of_patch(patch, grid)) >= 0) {
+                const auto there = Skins<Dim>::particles_of(*bins, number_of_patch(patch, *bins, grid), grid);
+                n += there.last - there.first;
+            }
+    }
+    return n;
+}
 
 /// \tparam R  a model of Ranks
 template <class R>

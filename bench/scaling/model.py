@@ -33,12 +33,15 @@ class Machine:
     """What this machine takes, by measurement."""
 
     pair: float  # a directed pair, in the tasks of cells [s]
+    record: float  # a particle in reach of a task of a cell, in the task [s]
+    listed: float  # the same and evaluation, outside of tasks: lists [s]
     particle: float  # a particle and evaluation, outside of these tasks [s]
     memory: float  # a byte from one process to another of the same node [s]
     meet: float  # lists of who needs what: a particle that is sent or received, at a rebuild [s]
     copy: float  # a value that is packed and landed [s]
     turn: float  # of the search for cuts: a rank's work for one cut [s]
     rebuilds: float  # of lists, a step
+    boxes: float  # exchanges of boxes of patches, a step
     reductions: float  # of a value or a few, a step, without those of the balance
     evaluations: int = 2  # a step
     looks: int = 4  # rebuilds between two looks of the balance
@@ -54,6 +57,7 @@ class Step:
     dearest: float  # of the rank that takes longest: imbalance is in it
     messages: float  # handing values over: packing, overheads, and what is not hidden
     exposed: float  # of these: waiting that no work hides
+    waits: float  # the same of a rank, on average
     meetings: float  # at rebuilds
     agreement: float  # reductions
     balance: float  # looking for cuts
@@ -72,10 +76,6 @@ class Step:
 def table(path):
     with open(path) as f:
         rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(f)]
-    for r in rows:
-        r.setdefault("wall_cells", 1.0)
-        for n in (12, 36):
-            r.setdefault(f"near_{n}_0", r["inner"]), r.setdefault(f"near_{n}_1", 0.0)
     return rows
 
 
@@ -89,9 +89,9 @@ def all_reduce(network, ranks, machine, size=8):
     return short + 2 * size * (network.byte * (ranks > network.node) + machine.memory * inside)
 
 
-def cuts(network, ranks, machine, turns):
-    """One search for new cuts: a sum of a value for each rank a turn, and this rank's work for it."""
-    return (turns + 1) * all_reduce(network, ranks, machine, 8 * ranks) + turns * ranks * machine.turn
+def cuts(network, ranks, machine):
+    """One search for new cuts: a sum of a value for each rank, then of two, and this rank's work for them."""
+    return all_reduce(network, ranks, machine, 8 * ranks) + all_reduce(network, ranks, machine, 16 * ranks) + 2 * ranks * machine.turn
 
 
 def far_of(row, network, ranks):
@@ -99,32 +99,58 @@ def far_of(row, network, ranks):
     return 8 * {12: row["far_12"], 36: row["far_36"]}.get(network.node, 0) if ranks > network.node else 0
 
 
+BOX = 48  # bytes: the box of a patch
+
+
+def waiting(water, walls, of_walls, free, late, row):
+    """Time of an evaluation in which a rank has nothing to run. Messages of other nodes come evenly over the time `water` for
+    which their cards send, so that a cell that waits for j of them can run at water j / (j + 1) on average.
+    of_walls: tasks of walls that wait for no other node; free[j]: of water that see no marker; late: of water that wait for no
+    marker of another node"""
+    t = of_walls
+    for j, tasks in enumerate(free):
+        t = max(t, water * j / (j + 1)) + tasks
+    done = of_walls + sum(free)
+    if row["wall_cells"] == 0 and row["in_1"] == 0:  # the last message lets its share of cells run
+        return max(t, water + sum(free[1:]) / max(1, row["in_0"])) - done
+    exposed = max(t, water) - done
+    if row["in_1"] > 0:  # markers are sent when the last water has come to their owner
+        exposed += max(0.0, walls - max(0.0, late - sum(free)))
+    return exposed
+
+
 def of_a_rank(row, of_node, network, machine, ranks):
     """(work, handing over, waiting that is not hidden, meeting) of one rank in a step.
     of_node: bytes that all ranks of its node send to other nodes"""
     n = machine.evaluations
-    work = n * (machine.pair * row["later"] + machine.particle * row["particles"])
+    work = n * (machine.pair * row["later"] + machine.particle * row["particles"] + (machine.record + machine.listed) * row["reach"])
+    if ranks == 1:
+        return work, 0.0, 0.0, 0.0
     values = 8 * (row["out_particles_0"] + row["in_particles_0"]) + 5 * (row["out_particles_1"] + row["in_particles_1"])
     messages = row["out_0"] + row["out_1"] + row["in_0"] + row["in_1"]
     sent = 8 * (8 * row["out_particles_0"] + 5 * row["out_particles_1"])
     far = far_of(row, network, ranks)
-    exposed = 0.0
-    if ranks > 1:
-        # All ranks of the node send at once through its card.
-        wire = lambda part: network.latency + (of_node * network.byte + (sent - far) * machine.memory) * part
-        of_water = 8 * row["out_particles_0"] / max(1, 8 * row["out_particles_0"] + 5 * row["out_particles_1"])
-        water, walls = wire(of_water), wire(1 - of_water)
-        # Cells that wait for nobody of another node run while its messages fly; those of walls before walls are sent.
-        hidden = [machine.pair * row[f"near_{network.node}_{s}"] if network.node in (12, 36) else 0.0 for s in (0, 1)]
-        if network.node not in (12, 36):  # one node: all messages are near
-            hidden = [machine.pair * row["inner"], 0.0]
-        if row["wall_cells"] > 0:
-            exposed = n * (max(0.0, water - hidden[1]) + max(0.0, walls - hidden[0]))
-        else:
-            exposed = n * max(0.0, max(water, walls) - hidden[0])
-    over = n * (machine.copy * values + network.overhead * messages)
+    # All ranks of the node send at once through its card. Records of walls follow when those of water have come.
+    wire = lambda part: network.latency + of_node * network.byte * part
+    of_water = 8 * 8 * row["out_particles_0"] / max(1, sent)
+    water, walls = wire(of_water), wire(1 - of_water)
+    # A pair of a task that runs meanwhile, with its part of the records that the task reads.
+    pair = machine.pair + machine.record * row["reach"] / max(1, row["later"])
+    of = lambda what: pair * row[f"{what}_{network.node}"]
+    if network.node in (12, 36):
+        free = [pair * row[f"free_{network.node}_{j}"] for j in range(6)]
+        exposed = n * waiting(water, walls, of("walls"), free, of("late"), row)
+    else:  # one node, all messages are near
+        exposed = n * max(0.0, water + walls - pair * row["inner"])
+    # What stays within the node is copied by the ranks themselves.
+    over = n * (machine.copy * values + network.overhead * messages + machine.memory * (sent - far))
+    # Boxes of patches: nothing runs meanwhile.
+    outside = far / max(1, sent)
+    over += machine.boxes * (network.overhead * (row["out_0"] + row["in_0"]) + network.latency
+                             + BOX * row["patches"] * (outside * network.byte * network.node + machine.memory * (1 - outside)))
     near = row["out_particles_0"] + row["in_particles_0"] + row["out_particles_1"] + row["in_particles_1"]
-    meeting = machine.rebuilds * (machine.meet * near + network.overhead * 2 * row["meet_parcels"])
+    meeting = machine.rebuilds * (machine.meet * near + network.overhead * 2 * row["meet_parcels"]
+                                  + row["meet_sent"] * (outside * network.byte * network.node + machine.memory * (1 - outside)))
     return work, over, exposed, meeting
 
 
@@ -141,7 +167,7 @@ def step(rows, network, machine):
     if ranks > 1:
         scatters = machine.rebuilds * (rows[0]["meet_scatters"] + 1)
         agreement = (machine.reductions + scatters) * all_reduce(network, ranks, machine)
-        balance = machine.rebuilds / machine.looks * cuts(network, ranks, machine, rows[0]["cut_wide"])
+        balance = machine.rebuilds / machine.looks * cuts(network, ranks, machine)
     whole = sum(longest) + agreement + balance
     own = sum(e[0] + e[1] + e[3] for e in each) / ranks
     return Step(
@@ -151,6 +177,7 @@ def step(rows, network, machine):
         dearest=longest[0],
         messages=longest[1] + longest[2],
         exposed=longest[2],
+        waits=sum(e[2] for e in each) / ranks,
         meetings=longest[3],
         agreement=agreement,
         balance=balance,
@@ -159,22 +186,36 @@ def step(rows, network, machine):
     )
 
 
-def line(points):
-    """Least squares y = a + b log2(x), b not below 0."""
-    xs, ys = [math.log2(x) for x, _ in points], [y for _, y in points]
+def fitted(points, of):
+    """Least squares y = a + b of(x), y not falling with x."""
+    xs, ys = [of(x) for x, _ in points], [y for _, y in points]
     mx, my = sum(xs) / len(xs), sum(ys) / len(ys)
     over = sum((x - mx) ** 2 for x in xs)
-    b = max(0.0, sum((x - mx) * (y - my) for x, y in zip(xs, ys)) / over) if over > 0 else 0.0
+    b = sum((x - mx) * (y - my) for x, y in zip(xs, ys)) / over if over > 0 else 0.0
+    b = max(0.0, b) if of(2) > of(1) else min(0.0, b)
     return my - b * mx, b
 
 
-def extrapolated(steps, ranks, network, machine, turns):
-    """Efficiency at more ranks, of as many particles each. Law: what a rank loses by itself and with its neighbours, over
-    its work, grows with the logarithm of the number of ranks as it does among the counted ones (the worst of more
-    ranks is worse); what all ranks do together follows from the network, of as many ranks."""
-    a, b = line([(s.ranks, (s.dearest + s.messages + s.meetings) / s.work) for s in steps])
+# How what a rank loses grows with the number of ranks P of like load. By faces: the worst ranks are those that are
+# surrounded; of P ranks in a domain about P^(2/3) lie at its faces and are not, so that what is missing to a rank within a
+# large domain falls like P^(-1/3). By doublings: each adds as much, for ever.
+LAWS = {"faces": lambda p: p ** (-1 / 3), "doublings": math.log2}
+
+
+def lost(s):
+    """What the slowest rank takes by itself and with its neighbours, over the mean work."""
+    return (s.dearest + s.messages + s.meetings) / s.work
+
+
+def extrapolated(steps, ranks, network, machine, law="faces"):
+    """Efficiency at more ranks, of as many particles each. What a rank loses by itself and with its neighbours goes on by the
+    law as among the counted ranks, and from the last of them where that has lost more than the law says; what all ranks do
+    together follows from the network, of as many ranks."""
+    of = LAWS[law]
+    a, b = fitted([(s.ranks, lost(s)) for s in steps], of)
     work = sum(s.work for s in steps) / len(steps)
-    near = a + b * math.log2(ranks)
     together = (machine.reductions + 5 * machine.rebuilds) * all_reduce(network, ranks, machine)
-    together += machine.rebuilds / machine.looks * cuts(network, ranks, machine, turns)
-    return 1 / (near + together / work)
+    together += machine.rebuilds / machine.looks * cuts(network, ranks, machine)
+    last = steps[-1]
+    above = max(0.0, lost(last) - a - b * of(last.ranks))
+    return 1 / (a + above + b * of(ranks) + together / work)

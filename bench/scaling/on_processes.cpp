@@ -28,6 +28,7 @@ struct Options {
 struct Found {
     std::vector<double> wall; ///< of each ten steps [s]
     double busy = 0, idle = 0, whole = 0;
+    std::int64_t reach = 0; ///< particles that tasks read in an evaluation
     std::int64_t early = 0, tasks = 0, messages = 0, bytes = 0, moved = 0, cuts = 0, rebuilds = 0, pairs = 0;
     double imbalance = 1, markers = 0, dt = 0;
     std::vector<double> first{0, 0}, values{0, 0}; ///< by species: particles sent with the first lists; values of each
@@ -52,6 +53,22 @@ void sent_of_each(Sim& sim, RunOptions const& run, Found& f)
     for (std::size_t q = 0; q < 2; ++q)
         if (particles[q] > 0)
             f.values[q] = double(asked.bytes[q]) / double(asked.exchanges[q]) / particles[q] / sizeof(double);
+}
+
+/// What the tasks of an evaluation read.
+void reach_of_cells(auto const& s, Found& f)
+{
+    f.reach = 0;
+    s.each_species([&](auto t) {
+        auto const& bins = s.template species<t()>().bins;
+        for (std::size_t k = 0; k < bins.cells(); ++k)
+            s.each_species([&](auto q) {
+                auto const& lists = s.template lists<t(), q()>();
+                if (lists.pairs() > 0 && lists.of_cell(k).pairs > 0)
+                    f.reach +=
+                        in_reach(bins.cell(k), s.template species<q()>().bins, s.parts().halo(q()).bins(), s.grid());
+            });
+    });
 }
 
 template <class Make>
@@ -84,6 +101,7 @@ Found measure(Make const& make, RunOptions const& run, Options const& o, Diary& 
         f.asked = s.ranks().on.asked() - asked;
         f.rebuilds = s.rebuilds() - rebuilds, f.pairs = s.pairs_evaluated() - pairs, f.markers = double(s.total());
         f.dt = (sim.time() - time) / o.steps;
+        reach_of_cells(s, f);
         if (!o.diary.empty() && repeat == 0) {
             Diary shortest; // of ten steps: the one that others have disturbed least
             double least = std::numeric_limits<double>::infinity();
@@ -162,6 +180,7 @@ void tell(Options const& o, Found const& f, MpiRanks const& ranks)
     const auto idle = shared(ranks, std::vector<double>{f.idle / f.whole});
     const auto total = [&](std::int64_t n) { return ranks.all(n, agree::Sum{}); };
     const auto early = total(f.early), tasks = total(f.tasks), messages = total(f.messages), bytes = total(f.bytes);
+    const auto reach = total(f.reach);
     const auto moved = total(f.moved), wide = total(f.asked.wide), reductions = total(f.asked.reductions);
     const auto reduced = total(f.asked.reduced), scatters = total(f.asked.scatters), parcels = total(f.asked.parcels);
     const auto sent = total(f.asked.sent), patches = total(f.asked.exchanges[2]), boxes = total(f.asked.bytes[2]);
@@ -175,13 +194,14 @@ void tell(Options const& o, Found const& f, MpiRanks const& ranks)
               << ", \"steps\": " << o.steps << ", \"ms_step\": " << 1e3 * sum / o.steps
               << ", \"markers\": " << f.markers << ", \"pairs\": " << f.pairs << ", \"rebuilds\": " << f.rebuilds
               << ", \"dt\": " << f.dt << ", \"busy\": " << list(busy) << ", \"idle\": " << list(idle)
-              << ", \"early\": " << early << ", \"tasks\": " << tasks << ", \"messages\": " << messages
-              << ", \"bytes\": " << bytes << ", \"moved\": " << moved << ", \"cuts\": " << f.cuts
-              << ", \"imbalance\": " << f.imbalance << ", \"reductions\": " << reductions
-              << ", \"reduced\": " << reduced << ", \"wide\": " << wide << ", \"scatters\": " << scatters
-              << ", \"parcels\": " << parcels << ", \"sent\": " << sent << ", \"patch_exchanges\": " << patches
-              << ", \"patch_bytes\": " << boxes << ", \"first\": " << list(first) << ", \"values\": " << list(values)
-              << ", \"latency\": " << small << ", \"megabyte\": " << large << ", \"agreement\": " << agreed << "}\n";
+              << ", \"early\": " << early << ", \"tasks\": " << tasks << ", \"reach\": " << reach
+              << ", \"reach\": " << reach << ", \"messages\": " << messages << ", \"bytes\": " << bytes
+              << ", \"moved\": " << moved << ", \"cuts\": " << f.cuts << ", \"imbalance\": " << f.imbalance
+              << ", \"reductions\": " << reductions << ", \"reduced\": " << reduced << ", \"wide\": " << wide
+              << ", \"scatters\": " << scatters << ", \"parcels\": " << parcels << ", \"sent\": " << sent
+              << ", \"patch_exchanges\": " << patches << ", \"patch_bytes\": " << boxes
+              << ", \"first\": " << list(first) << ", \"values\": " << list(values) << ", \"latency\": " << small
+              << ", \"megabyte\": " << large << ", \"agreement\": " << agreed << "}\n";
 }
 
 void write(Diary const& diary, std::string const& file, MpiRanks const& ranks)

@@ -146,14 +146,15 @@ def counts(series, path):
 
 def weak(series, limits, path, title):
     figure, axis = plt.subplots(figsize=(9, 5.2), layout="constrained")
-    for colour, (name, counted, beyond) in zip((BLUE, ORANGE), series):
+    for colour, limit, (name, counted, beyond) in zip((BLUE, ORANGE), limits, series):
         axis.plot(*zip(*counted), "o", ms=7, color=colour, label=f"{name}: ranks counted")
         axis.plot(*zip(*beyond), "--", lw=1.5, color=colour, label="extrapolated by the stated law")
         axis.plot(*beyond[-1], "o", ms=9, mfc="white", mec=colour, mew=2)
-        axis.annotate(f"{100 * beyond[-1][1]:.0f} %", beyond[-1], (-4, 10), textcoords="offset points", ha="right", color=colour)
+        below = beyond[-1][1] < limit
+        axis.annotate(f"{100 * beyond[-1][1]:.0f} %", beyond[-1], (-4, -20 if below else 10), textcoords="offset points", ha="right", color=colour)
     for colour, limit in zip((BLUE, ORANGE), limits):
         axis.plot([16384 * 0.7, 16384 * 1.5], [limit, limit], color=colour, lw=3)
-    axis.annotate("limits", (16384, limits[1]), (0, -16), textcoords="offset points", ha="center", fontsize=10)
+    axis.annotate("limits", (16384, limits[0]), (0, -16), textcoords="offset points", ha="center", fontsize=10)
     axis.set_xscale("log", base=2)
     axis.set_ylim(0, 1.05)
     axis.set_xlabel("ranks")

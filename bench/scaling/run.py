@@ -17,9 +17,9 @@ STRONG = (8, 16, 32, 64, 128, 256, 504)
 CELLS = (1, 2, 3, 4, 6)
 # (ranks, finer, cell): each particle of the computed state is cut into finer^3
 COUNTED = [(p, 1, 2) for p in STRONG] + [(p, 3, 2) for p in STRONG] + [(64, 2, c) for c in CELLS]
-COUNTED += [(8, 2, 2), (27, 3, 2), (60, 4, 2), (115, 5, 2)]  # 1e5 particles a rank
-COUNTED += [(87, 2, 2), (266, 3, 2), (600, 4, 2), (1150, 5, 2)]  # 1e4
-COUNTED += [(4096, 7, 2), (16384, 6, 1)]  # as memory allows: 13 GB, and more than 19
+COUNTED += [(8, 2, 2), (27, 3, 2), (60, 4, 2), (115, 5, 2), (193, 6, 2), (301, 7, 2)]  # 1e5 particles a rank
+COUNTED += [(87, 2, 2), (266, 3, 2), (600, 4, 2), (1150, 5, 2), (1925, 6, 2), (3012, 7, 2)]  # 1e4
+COUNTED += [(4096, 7, 2)]  # as memory allows: 13 GB
 
 
 def build(name):
@@ -62,7 +62,7 @@ def measure(anew, again=False):
     if measured and not again:
         return measured
     for _ in range(3):
-        for cell in (2, 4):
+        for cell in (2, 4, 8):
             for ranks in (1, 2):
                 run = on_processes(ranks, steps=40, repeats=1, cell=cell)
                 key = f"{ranks}/{cell}"
@@ -89,7 +89,7 @@ def sweep(anew):
     for scene, steps in (("seed", 10), ("granular", 10)):
         for ranks, threads in ((1, 1), (1, 2), (2, 1), (2, 2)):
             for cell in (1, 2, 4, 8, 16, 32):
-                run = on_processes(ranks, scene=scene, steps=steps, repeats=1, cell=cell, threads=threads)
+                run = on_processes(ranks, scene=scene, steps=steps, repeats=2, cell=cell, threads=threads)
                 found.append({k: run[k] for k in ("scene", "ranks", "threads", "cell", "ms_step", "markers", "imbalance")})
                 print(f"  {scene} {ranks} x {threads}, cell {cell}: {run['ms_step']:.2f} ms", flush=True)
     kept.write_text(json.dumps(found, indent=1))

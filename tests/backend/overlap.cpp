@@ -15,6 +15,8 @@ struct Log {
     std::int64_t since = 0;           ///< since the last exchange began
     std::int64_t before_the_last = 0; ///< between the beginning of an exchange and the last message of it
     int missing = 0;                  ///< messages
+    bool any_came = true;             ///< of the exchange of water
+    std::int64_t before_water = 0;    ///< tasks from sending water to the first message of others' water, the most
 };
 /// When a message is there: as soon as it was sent; not before the rank has nothing left to do; before it does anything.
 enum class Comes { soon, late, at_once };
@@ -42,11 +44,16 @@ struct Logged {
         Inner inner;
         Log* log;
         Comes comes;
+        bool water;
         std::vector<int> known = {};
 
         int named(int k)
         {
             if (k >= 0 && --log->missing == 0) log->before_the_last += log->since;
+            if (k >= 0 && water && !log->any_came) {
+                log->any_came = true;
+                log->before_water = std::max(log->before_water, log->since);
+            }
             return k;
         }
         int taken()
@@ -61,7 +68,8 @@ struct Logged {
     };
     [[nodiscard]] Flown exchange(std::span<Packet const> out, std::span<Packet const> in, int tag) const
     {
-        Flown flown{on.exchange(out, in, tag), log, comes};
+        Flown flown{on.exchange(out, in, tag), log, comes, tag == 0};
+        if (flown.water) log->any_came = in.empty();
         if (log->missing == 0) log->since = 0;
         log->missing += int(in.size());
         if (comes == Comes::at_once)
@@ -123,6 +131,38 @@ TEST(Overlap, TargetCellsRunBeforeTheLastMessageHasCome)
     EXPECT_GT(soon.early[0], 0); // the first to run: nothing can have come
     EXPECT_EQ(soon.hash, late.hash);
     EXPECT_EQ(soon.hash, at_once.hash);
+}
+// Walls wait for water, and water for walls. A rank does not idle meanwhile: cells of water that see no wall need neither.
+TEST(Overlap, WaterRunsWhileWallsWait)
+{
+    auto full_tank = [](auto backend) {
+        constexpr double dx = 0.02;
+        auto water = wcsph(CubicSpline<2>{.h = 1.2 * dx}, Tait{.rho0 = 1000, .c0 = 30}, Continuity<2>{},
+                           PressureForce<2>{}, ArtificialViscosity{.alpha = 0.1}, Gravity<2>{{0, -9.81}});
+        Simulation sim(water, RungeKutta2{}, Bce(Box<2>{{}, {{1, 1}}}, dx, Adami{}, open(top)), backend);
+        sim.fill(Box<2>{{}, {{1, 1}}}, dx, hydrostatic);
+        sim.run({.steps = 20, .cfl = 0.2});
+        return sim;
+    };
+    const auto hash = full_tank(Serial{}).state_hash();
+    std::array<std::int64_t, 4> tasks{}; // of a rank, where nothing runs ahead
+    for (const Comes comes : {Comes::at_once, Comes::soon, Comes::late})
+        VirtualRanks(4).run([&](auto rank) {
+            Log log;
+            const auto sim = full_tank(
+                OnRank{Logged<decltype(rank)>{rank, &log, comes}, LoggedTasks{&log}, 1, Balance{.by_pairs = true}});
+            const auto walls = std::int64_t(sim.system().template species<1>().bins.cells());
+            EXPECT_GT(walls, 0);
+            if (comes == Comes::late) {
+                EXPECT_GT(log.before_water, 2 * walls);
+            }
+            if (comes == Comes::at_once) {
+                EXPECT_EQ(log.before_water, 0);
+                tasks[std::size_t(rank.rank())] = log.tasks;
+            }
+            EXPECT_EQ(log.tasks, tasks[std::size_t(rank.rank())]); // none runs twice
+            EXPECT_EQ(sim.state_hash(), hash);
+        });
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "spate/cells/shares.hpp"
+#include "spate/backend/virtual_ranks.hpp"
+#include "spate/spate.hpp"
 
 #include <gtest/gtest.h>
 
@@ -93,6 +94,44 @@ TEST(Shares, AreOfLikeCost)
         EXPECT_EQ(shares.owner_of(0), 0);
         EXPECT_EQ(shares.owner_of(~std::uint64_t(0)), ranks - 1);
     }
+}
+struct Summing : VirtualRanks::Rank {
+    int* n;
+    void each(auto& values, auto const& merge) const { ++*n, VirtualRanks::Rank::each(values, merge); }
+};
+// Who has the cells between two cuts knows which new cuts are among them: the same cuts as found by halves.
+TEST(Shares, AreCutAnewInTwoSums)
+{
+    const auto cells = in_order<3>(-3, 12);
+    for (int ranks : {1, 2, 7, 64, 700})
+        for (int round = 0; round < 3; ++round) {
+            std::vector<CellCost> all; // twice: of two species
+            for (std::size_t k = 0; k < 2 * cells.size(); ++k) {
+                const auto n = std::int64_t(k) * (7 + round) % 23;
+                all.push_back({along_curve<3>(cells[k / 2]), round == 0 ? n % 3 : round == 1 ? n * n * n : k == 99});
+            }
+            std::vector<std::uint64_t> first(std::size_t(ranks), 0);
+            for (std::size_t r = 1; r < first.size(); ++r) // uneven stretches, some with nothing in them
+                first[r] = along_curve<3>(cells[r * r * cells.size() / (first.size() * first.size())]) + r % 2;
+            const Shares<3> before(first);
+            std::vector<Shares<3>::Anew> anew(first.size());
+            std::vector<int> sums(first.size(), 0);
+            VirtualRanks(ranks).run([&](auto rank) {
+                std::vector<CellCost> mine;
+                for (auto const& c : all)
+                    if (before.owner_of(c.key) == rank.rank()) mine.push_back(c);
+                const auto me = std::size_t(rank.rank());
+                anew[me] = before.cut_anew(mine, Summing{rank, &sums[me]});
+            });
+            const auto shares = Shares<3>::of_like_cost(all, Many{ranks});
+            std::vector<std::int64_t> of(std::size_t(ranks), 0);
+            for (auto const& c : all) of[std::size_t(shares.owner_of(c.key))] += c.cost;
+            for (std::size_t r = 0; r < first.size(); ++r) {
+                ASSERT_EQ(anew[r].shares, shares) << ranks << " ranks, round " << round;
+                EXPECT_EQ(anew[r].dearest, *std::max_element(of.begin(), of.end()));
+                EXPECT_EQ(sums[r], 2);
+            }
+        }
 }
 // Walls have cells on both sides of the origin: their keys must not lie at both ends of the curve.
 TEST(Shares, OfADomainWithWallsAreFoundInFewTurns)

@@ -2,6 +2,7 @@
 // A checkpoint is whole, or it is refused with one sentence and nothing has changed.
 #include "spate/io/checkpoint_file.hpp"
 
+#include "fuzz/stranger.hpp"
 #include "io/small_tank.hpp"
 #include "spate/io/checkpoint.hpp"
 
@@ -172,6 +173,16 @@ TEST_F(CheckpointFileTest, IsRefusedOrTakenButNeverHalfTaken)
     }
     EXPECT_GT(refused, 150);
     EXPECT_GT(taken, 10); // such as another velocity of a particle: nobody can tell
+}
+// A short run of the fuzzer's moves, with lengths like those of its corpus.
+TEST_F(CheckpointFileTest, StandsTheMovesOfTheFuzzer)
+{
+    Dice dice{4};
+    for (int k = 0; k < 1500; ++k) {
+        std::vector<std::uint8_t> bytes_of_fuzzer(1 + dice(k % 10 == 0 ? 4096 : 40));
+        for (auto& b : bytes_of_fuzzer) b = std::uint8_t(dice(256));
+        fuzz::stranger(bytes_of_fuzzer);
+    }
 }
 TEST_F(CheckpointFileTest, IsRefusedWithoutAnyOfItsTables)
 {

@@ -16,6 +16,7 @@ struct Balance {
     double a_particle = 10;  ///< what a particle costs outside of the tasks of cells, in pairs: packing, advancing [-]
     double pace = 1;         ///< tests, by pairs: how many times as long as on others anything takes on this rank [-]
     int forced = 0;          ///< tests: cuts wander at every so many steps, whatever it costs; 0: off
+    bool by_cpu = false;     ///< a cell costs the time of a processor, not of the clock: where other programs run too
 
     void check() const
     {

@@ -14,24 +14,26 @@ namespace spate {
 template <int Dim>
 void each_cell_around(Index<Dim> const& cell, Grid<Dim> const& grid, auto const& f)
 {
-    std::array<std::vector<std::int32_t>, std::size_t(Dim)> at; // the cells along each axis
+    std::array<std::array<std::int32_t, 3>, std::size_t(Dim)> at; // the cells along each axis
+    std::array<std::size_t, std::size_t(Dim)> count;
+    std::size_t all = 1;
     for (int c = 0; c < Dim; ++c) {
         const auto k = std::size_t(c);
         const std::int32_t M = grid.cell(), n = grid.bins(c) / grid.per_range(c), first = cell[k] * M;
         const std::int32_t last = n > 0 ? std::min(first + M, n) - 1 : first + M - 1;
+        auto* next = at[k].begin();
         for (std::int32_t patch : {first - 1, first, last + 1}) {
             if (n > 0) patch = (patch % n + n) % n;
-            at[k].push_back(grid.cell_of(c, patch * grid.per_range(c)));
+            *next++ = grid.cell_of(c, patch * grid.per_range(c));
         }
         std::sort(at[k].begin(), at[k].end());
-        at[k].erase(std::unique(at[k].begin(), at[k].end()), at[k].end());
+        count[k] = std::size_t(std::unique(at[k].begin(), at[k].end()) - at[k].begin());
+        all *= count[k];
     }
-    std::size_t all = 1;
-    for (auto const& a : at) all *= a.size();
     for (std::size_t q = 0; q < all; ++q) {
         Index<Dim> other;
         std::size_t rest = q;
-        for (std::size_t c = 0; c < std::size_t(Dim); rest /= at[c].size(), ++c) other[c] = at[c][rest % at[c].size()];
+        for (std::size_t c = 0; c < std::size_t(Dim); rest /= count[c], ++c) other[c] = at[c][rest % count[c]];
         if (other != cell) f(other);
     }
 }

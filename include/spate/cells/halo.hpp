@@ -100,30 +100,36 @@ private:
         };
         const std::size_t per_cell = Skins<Dim>::patches_of_cell(grid);
         std::map<Index<Dim>, Around> around;
-        std::vector<std::pair<Index<Dim>, Around*>> others; // the foreign ones around a cell
-        const auto same = [](Index<Dim> const& a, Index<Dim> const& b) {
-            bool all = true;
-            for (std::size_t c = 0; c < std::size_t(Dim); ++c) all = all && a[c] == b[c];
-            return all;
+        std::array<Around*, Dim == 1 ? 3 : Dim == 2 ? 9 : 27> beside; // the foreign ones beside a cell, by direction
+        auto direction = [](Index<Dim> const& from, Index<Dim> const& to) { // steps of more than one go round a period
+            std::size_t d = 0;
+            for (std::size_t c = std::size_t(Dim); c-- > 0;) {
+                const std::int32_t step = to[c] - from[c];
+                d = 3 * d + (step == 0 ? 1 : step == 1 || step < -1 ? 2 : 0);
+            }
+            return d;
         };
         for (auto const* at : targets)
             for (std::size_t k = 0; k < at->cells(); ++k) {
                 const Index<Dim> home = at->cell(k);
-                others.clear();
+                bool any = false;
+                beside.fill(nullptr);
                 each_cell_around(home, grid, [&](Index<Dim> const& cell) {
+                    for (auto const* own : targets)
+                        if (own->find(cell) >= 0) return;
                     const auto [it, is_new] = around.try_emplace(cell);
                     if (is_new) it->second.owner = shares.owner(cell);
-                    if (it->second.owner != me) others.emplace_back(cell, &it->second);
+                    if (it->second.owner == me) return;
+                    any = true;
+                    beside[direction(home, cell)] = &it->second;
                 });
-                for (std::size_t p = 0; p < per_cell && !others.empty(); ++p) {
+                for (std::size_t p = 0; p < per_cell && any; ++p) {
                     if (Skins<Dim>::particles_of(*at, k * per_cell + p, grid).empty()) continue;
                     each_around<Dim>(patch_at(home, p, grid), grid, [&](Index<Dim> const& cell, std::size_t local) {
-                        for (auto const& [other, it] : others) {
-                            if (!same(other, cell)) continue;
-                            it->asked.resize(per_cell);
-                            it->asked[local] = 1;
-                            return;
-                        }
+                        Around* const it = beside[direction(home, cell)];
+                        if (!it) return;
+                        it->asked.resize(per_cell);
+                        it->asked[local] = 1;
                     });
                 }
             }

@@ -10,6 +10,7 @@
 #include "spate/physics/sweep.hpp"
 
 #include <chrono>
+#include <ctime>
 #include <functional>
 #include <map>
 #include <optional>
@@ -37,7 +38,8 @@ public:
     using Flying = std::remove_cvref_t<decltype(std::declval<R const&>().exchange({}, {}, 0))>;
     static constexpr auto species = std::size_t(Species);
 
-    explicit Decomposition(R ranks) : ranks_(std::move(ranks)) {}
+    /// \param by_cpu  whether tasks cost the time of their processor, not that of the clock
+    explicit Decomposition(R ranks, bool by_cpu = false) : ranks_(std::move(ranks)), by_cpu_(by_cpu) {}
 
     [[nodiscard]] R const& ranks() const { return ranks_; }
     [[nodiscard]] Shares<Dim> const& shares() const { return shares_; }
@@ -113,10 +115,13 @@ public:
         links.assign(halo.in().size(), {});
         std::map<int, std::size_t> link;
         for (std::size_t l = 0; l < links.size(); ++l) link[halo.in()[l].rank] = l;
+        std::vector<std::size_t> link_of(halo.bins().cells());
+        for (std::size_t c = 0; c < link_of.size(); ++c) link_of[c] = link.at(owner(halo.bins().cell(c)));
         for (std::size_t k = 0; k < at.cells(); ++k)
             each_cell_around(at.cell(k), grid, [&](Index<Dim> const& cell) {
-                if (halo.bins().find(cell) < 0) return;
-                auto& cells = links[link.at(owner(cell))];
+                const auto foreign = halo.bins().find(cell);
+                if (foreign < 0) return;
+                auto& cells = links[link_of[std::size_t(foreign)]];
                 if (cells.empty() || cells.back() != std::int32_t(k)) cells.push_back(std::int32_t(k));
             });
         cost_[std::size_t(s)].assign(at.cells(), 0);
@@ -125,7 +130,7 @@ public:
     // ---- values on their way
     /// Sends values of those particles of a species that others have asked for; `put(i, to)` writes those of particle i,
     /// `land(i, from)` will take those of foreign particle i. \param count  values a particle
-    void send(int s, std::size_t count, auto const& put, std::function<void(std::int32_t, S const*)> land)
+    void send(int s, std::size_t count, auto const& put, auto land)
     {
         finish(s);
         auto& air = air_[std::size_t(s)];
@@ -136,7 +141,9 @@ public:
             for (auto const i : l.particle) put(i, to), to += count;
         report_.messages += std::int64_t(out.size()), report_.bytes += std::int64_t(air.out.size() * sizeof(S));
         air.count = count;
-        air.land = std::move(land);
+        air.land = [count, land = std::move(land)](std::vector<std::int32_t> const& particles, S const* from) {
+            for (auto const i : particles) land(i, from), from += count;
+        };
         air.flying.emplace(ranks_.exchange(out, in, s));
         air.missing.assign(in.size(), 1);
     }
@@ -149,29 +156,36 @@ public:
     {
         for (int s = 0; s < Species; ++s) finish(s);
     }
+    /// Tasks of a later sweep that may run in an earlier one: cells of a target that read what is in the air for that one
+    /// too, and nothing that has still to be made.
+    template <class May, class Task>
+    struct Ahead {
+        int target;
+        std::size_t cells;
+        unsigned sources;
+        May const& may;
+        Task const& task;
+    };
+    struct Nobody {};
     /// Runs task(cell) for each cell of target s, each as soon as the last of what it reads has arrived, those that others
-    /// have waited for first. \param sources  bit q: reads source q
-    void run(int s, std::size_t cells, unsigned sources, auto const& task, auto const& backend)
+    /// have waited for first. Where nothing is left but to wait, tasks of a later sweep run: `then`.
+    /// \param sources  bit q: reads source q    \param rest  without those that have run ahead of their sweep
+    template <class Then = Nobody>
+    void run(int s, std::size_t cells, unsigned sources, auto const& task, auto const& backend, bool rest = false,
+             [[maybe_unused]] Then const& then = {})
     {
-        std::vector<std::int32_t> missing(cells, 0), ready, inner;
-        for (int q = 0; q < Species; ++q) {
-            auto const& air = air_[std::size_t(q)];
-            if ((sources >> q & 1) == 0 || !air.flying) continue;
-            for (std::size_t l = 0; l < air.missing.size(); ++l)
-                if (air.missing[l])
-                    for (auto const k : waiting_[std::size_t(s * Species + q)][l]) ++missing[std::size_t(k)];
+        constexpr bool any_ahead = !std::same_as<Then, Nobody>;
+        Due mine = due(s, cells, sources, [&](std::size_t k) { return !rest || ran_[k] == 0; }), later;
+        unsigned all = sources;
+        if constexpr (any_ahead) {
+            ran_.assign(then.cells, 0);
+            later = due(then.target, then.cells, then.sources, then.may);
+            all |= then.sources;
         }
-        for (std::size_t k = 0; k < cells; ++k)
-            if (missing[k] == 0) inner.push_back(std::int32_t(k));
-        auto in_the_air = [&] {
-            for (int q = 0; q < Species; ++q)
-                if ((sources >> q & 1) != 0 && air_[std::size_t(q)].flying) return true;
-            return false;
-        };
         auto is_missing = [&] {
             for (int q = 0; q < Species; ++q) {
                 auto const& air = air_[std::size_t(q)];
-                if ((sources >> q & 1) != 0 && air.flying &&
+                if ((all >> q & 1) != 0 && air.flying &&
                     std::find(air.missing.begin(), air.missing.end(), 1) != air.missing.end())
                     return true;
             }
@@ -182,30 +196,31 @@ public:
             while (any) {
                 any = false;
                 for (int q = 0; q < Species; ++q) {
-                    if ((sources >> q & 1) == 0 || !air_[std::size_t(q)].flying) continue;
+                    if ((all >> q & 1) == 0 || !air_[std::size_t(q)].flying) continue;
                     const int l = landed(q, patient);
                     if (l < 0) continue;
                     any = true, patient = false;
-                    for (auto const k : waiting_[std::size_t(s * Species + q)][std::size_t(l)])
-                        if (--missing[std::size_t(k)] == 0) ready.push_back(k);
+                    if ((sources >> q & 1) != 0) mine.arrived(waiting_[std::size_t(s * Species + q)][std::size_t(l)]);
+                    if constexpr (any_ahead)
+                        if ((then.sources >> q & 1) != 0)
+                            later.arrived(waiting_[std::size_t(then.target * Species + q)][std::size_t(l)]);
                 }
             }
         };
-        const std::size_t some = 4 * std::size_t(backend.threads());
-        std::size_t done = 0, left = cells;
-        while (left > 0) { // what no task here waits for may fly on
-            const bool waiting = in_the_air();
-            if (waiting) look(ready.empty() && done == inner.size());
-            if (!ready.empty()) {
-                compute(s, ready, task, backend, is_missing());
-                left -= ready.size();
-                ready.clear();
+        // Between two looks; threads that meet after every few tasks would do little else.
+        const auto threads = std::size_t(backend.threads());
+        const std::size_t some = threads == 1 ? 4 : std::max(4 * threads, cells / 16);
+        while (mine.left > 0) { // what no task here waits for may fly on
+            const bool waiting = is_missing();
+            if (waiting) look(mine.idle() && later.idle());
+            if (!mine.idle()) {
+                const auto some_cells = mine.next(waiting ? some : cells);
+                compute(s, some_cells, task, backend, is_missing());
             }
-            else if (done < inner.size()) {
-                const std::size_t end = waiting ? std::min(inner.size(), done + some) : inner.size();
-                compute(s, std::span(inner).subspan(done, end - done), task, backend, is_missing());
-                left -= end - done;
-                done = end;
+            else if constexpr (any_ahead) {
+                const auto some_cells = later.next(some);
+                for (auto const k : some_cells) ran_[std::size_t(k)] = 1;
+                compute(then.target, some_cells, then.task, backend, is_missing());
             }
         }
     }
@@ -247,11 +262,8 @@ public:
         const auto most = ranks_.all(mine, agree::Most{}), sum = ranks_.all(mine, agree::Sum{});
         report_.imbalance = sum > 0 ? double(most) * ranks_.count() / double(sum) : 1;
         if (report_.imbalance <= tolerated) return;
-        auto shares = Shares<Dim>::of_like_cost(cost, ranks_);
-        std::vector<std::int64_t> after(std::size_t(ranks_.count()), 0);
-        for (auto const& c : cost) after[std::size_t(shares.owner_of(c.key))] += c.cost;
-        ranks_.each(after, agree::Sum{});
-        if (*std::max_element(after.begin(), after.end()) >= most) return;
+        auto [shares, dearest] = shares_.cut_anew(std::move(cost), ranks_);
+        if (dearest >= most) return;
         ++report_.cuts;
         shares_ = std::move(shares);
     }
@@ -263,9 +275,56 @@ private:
         std::vector<S> out, in; // persistent
         std::size_t count = 0;
         std::optional<Flying> flying;
-        std::vector<char> missing; // by link
-        std::function<void(std::int32_t, S const*)> land;
+        std::vector<char> missing;                                            // by link
+        std::function<void(std::vector<std::int32_t> const&, S const*)> land; // all particles of a link
     };
+    /// The tasks of a target: how many messages each cell waits for, and which cells can run.
+    struct Due {
+        std::vector<std::int32_t> missing, ready, inner; // missing: -1 is none of these tasks
+        std::size_t done = 0, left = 0;                  // done: of inner
+
+        [[nodiscard]] bool idle() const { return ready.empty() && done == inner.size(); }
+        void arrived(std::vector<std::int32_t> const& cells)
+        {
+            for (auto const k : cells)
+                if (missing[std::size_t(k)] > 0 && --missing[std::size_t(k)] == 0) ready.push_back(k);
+        }
+        /// The next cells to run: those that others have waited for, else at most so many more.
+        [[nodiscard]] std::vector<std::int32_t> next(std::size_t some)
+        {
+            std::vector<std::int32_t> cells;
+            if (!ready.empty()) std::swap(cells, ready);
+            else {
+                const std::size_t end = std::min(inner.size(), done + some);
+                cells.assign(inner.begin() + std::ptrdiff_t(done), inner.begin() + std::ptrdiff_t(end));
+                done = end;
+            }
+            left -= cells.size();
+            return cells;
+        }
+    };
+    /// \param is_one  of a cell: whether it is one of the tasks
+    Due due(int s, std::size_t cells, unsigned sources, auto const& is_one) const
+    {
+        Due d;
+        d.missing.assign(cells, 0);
+        for (int q = 0; q < Species; ++q) {
+            auto const& air = air_[std::size_t(q)];
+            if ((sources >> q & 1) == 0 || !air.flying) continue;
+            for (std::size_t l = 0; l < air.missing.size(); ++l)
+                if (air.missing[l])
+                    for (auto const k : waiting_[std::size_t(s * Species + q)][l]) ++d.missing[std::size_t(k)];
+        }
+        for (std::size_t k = 0; k < cells; ++k) {
+            if (!is_one(k)) {
+                d.missing[k] = -1;
+                continue;
+            }
+            ++d.left;
+            if (d.missing[k] == 0) d.inner.push_back(std::int32_t(k));
+        }
+        return d;
+    }
 
     template <class X>
     static std::vector<X> picked(std::vector<X> const& all, std::vector<std::int32_t> const& which)
@@ -317,9 +376,16 @@ private:
         auto const& in = halo_[std::size_t(s)].in();
         S const* from = air.in.data();
         for (int b = 0; b < l; ++b) from += in[std::size_t(b)].particle.size() * air.count;
-        for (auto const i : in[std::size_t(l)].particle) air.land(i, from), from += air.count;
+        air.land(in[std::size_t(l)].particle, from);
         air.missing[std::size_t(l)] = 0;
         return l;
+    }
+    [[nodiscard]] std::int64_t now() const // [ns]
+    {
+        if (!by_cpu_) return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
+        timespec t{};
+        clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+        return 1'000'000'000 * std::int64_t(t.tv_sec) + std::int64_t(t.tv_nsec);
     }
     void compute(int s, std::span<std::int32_t const> cells, auto const& task, auto const& backend, bool early)
     {
@@ -328,9 +394,9 @@ private:
         auto& cost = cost_[std::size_t(s)];
         backend.for_each(cells.size(), [&](std::size_t k) {
             const auto cell = std::size_t(cells[k]);
-            const auto begin = Clock::now();
+            const auto begin = now();
             task(cell);
-            cost[cell] += std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - begin).count();
+            cost[cell] += now() - begin;
         });
         report_.busy += std::chrono::duration<double>(Clock::now() - start).count();
         report_.tasks += std::int64_t(cells.size());
@@ -338,12 +404,14 @@ private:
     }
 
     R ranks_;
+    bool by_cpu_;
     Shares<Dim> shares_;
     std::array<Halo<Dim, T>, species> halo_;
     std::array<std::int32_t, species> first_{}; ///< record of the first of others
     std::array<std::size_t, species> owned_{};
     std::array<std::vector<std::vector<std::int32_t>>, species * species> waiting_;
     std::array<Air, species> air_;
+    std::vector<char> ran_; ///< cells of the target whose sweep comes next: whether they have run in the last one
     std::array<std::vector<std::int64_t>, species> cost_;
     RankReport report_;
 };

@@ -77,7 +77,7 @@ public:
     [[gnu::cold]] System(P physics, B boundary, Workers backend, Neighbours neighbours, bool saves)
         : physics_(std::move(physics)), boundary_(std::move(boundary)), backend_(backend), neighbours_(neighbours),
           saves_(saves), grid_({}, Edges<dim>(Edge::open), 1, 1, 1), terms_(M::terms_of(physics_, boundary_)),
-          parts_(ranks_of(backend_))
+          parts_(parts_of(backend_))
     {
         for_each(P::uniform, [&](auto f) { mobile().value(f) = physics_.uniforms[f]; });
     }
@@ -1175,16 +1175,43 @@ private:
     {
         static_assert(plan.complete,
                       "spate: terms wait for each other's fields; let one of them write a field of its own");
-        [&]<std::size_t... k>(std::index_sequence<k...>) { (stage<plan.stage[k]>(), ...); }
+        [&]<std::size_t... k>(std::index_sequence<k...>)
+        {
+            (stage<plan.stage[k], ahead_in(plan, int(k)), is_rest(plan, int(k))>(), ...);
+        }
         (std::make_index_sequence<std::size_t(plan.count)>{});
         if constexpr (!alone) parts_.finish(); // what no cell here has waited for
     }
-    template <Stage st>
+    /// Ranks that wait for others in a sweep of the markers run ahead: cells of the next sweep of the mobile particles that
+    /// see no marker, if between the two nothing but markers changes.
+    static constexpr int next_sweep(auto const& plan, int k)
+    {
+        if (alone || plan.stage[std::size_t(k)].action != Action::sweep || plan.stage[std::size_t(k)].species != 1)
+            return -1;
+        for (int n = k + 1; n < plan.count; ++n) {
+            auto const& st = plan.stage[std::size_t(n)];
+            if (st.species == 0) return st.action == Action::sweep ? n : -1;
+            if (st.action == Action::sweep) return -1;
+        }
+        return -1;
+    }
+    static constexpr Stage ahead_in(auto const& plan, int k)
+    {
+        const int n = next_sweep(plan, k);
+        return n < 0 ? Stage{} : plan.stage[std::size_t(n)];
+    }
+    static constexpr bool is_rest(auto const& plan, int k)
+    {
+        for (int n = 0; n < k; ++n)
+            if (next_sweep(plan, n) == k) return true;
+        return false;
+    }
+    template <Stage st, Stage ahead, bool rest>
     void stage()
     {
         if constexpr (st.action == Action::pass) pass<st.species, st.terms, st.fields>();
         else if constexpr (st.action == Action::pack) pack<st.species, st.fields>();
-        else sweep<st.species, st.terms, ~Mask(0)>();
+        else sweep<st.species, st.terms, ~Mask(0), ahead, rest>();
     }
     /// f(first, last) over stretches of the padded columns of a species.
     template <int s>
@@ -1353,28 +1380,60 @@ private:
         me.template pack<s, copied>();
         me.parts_.finish(s);
     }
+    static Parts parts_of(Workers const& workers)
+    {
+        if constexpr (alone) return Parts(ranks_of(workers));
+        else return Parts(ranks_of(workers), workers.balance.by_cpu);
+    }
     template <int s, Mask terms, Mask allowed>
-    void sweep()
+    static constexpr Mask read_from(int q)
+    {
+        return q < species_count && (allowed >> q & 1) != 0 ? reading(terms, s, q) : 0;
+    }
+    /// f(task of a cell)
+    template <int s, Mask terms, Mask allowed>
+    void with_task(auto const& f)
     {
         if constexpr (s == 0 && (allowed & ~Mask(3)) != 0) carry_at_walls(terms_, carry_.value_or(Carry{due_}));
-        constexpr Mask from_0 = (allowed & 1) != 0 ? reading(terms, s, 0) : 0;
-        constexpr Mask from_1 = species_count == 2 && (allowed & 2) != 0 ? reading(terms, s, 1) : 0;
-        auto run_with = [&](auto const&... source) {
+        constexpr Mask from_0 = read_from<s, terms, allowed>(0), from_1 = read_from<s, terms, allowed>(1);
+        auto with = [&](auto const&... source) {
             auto& x = species<s>();
             using Sums = decltype(M::template fields<added(terms) | written(terms)>());
             using Target = Set<in_pairs(M::template fields<read_of_target(terms, s)>())>;
             constexpr Mask itself = (allowed >> s) & 1 ? terms : Mask(0);
-            auto one = [&](std::size_t cell) {
+            f([&](std::size_t cell) {
                 sweep_cell<PairV, itself, Sums, Target>(physics_.interaction, terms_, x.particles, x.bins, cell,
                                                         source...);
-            };
-            if constexpr (alone) backend_.for_each(x.bins.cells(), one);
-            else parts_.run(s, x.bins.cells(), (from_0 != 0 ? 1u : 0u) | (from_1 != 0 ? 2u : 0u), one, backend_);
+            });
         };
-        if constexpr (from_0 != 0 && from_1 != 0) run_with(source<s, 0, from_0>(), source<s, 1, from_1>());
-        else if constexpr (from_0 != 0) run_with(source<s, 0, from_0>());
-        else if constexpr (from_1 != 0) run_with(source<s, 1, from_1>());
-        else run_with();
+        if constexpr (from_0 != 0 && from_1 != 0) with(source<s, 0, from_0>(), source<s, 1, from_1>());
+        else if constexpr (from_0 != 0) with(source<s, 0, from_0>());
+        else if constexpr (from_1 != 0) with(source<s, 1, from_1>());
+        else with();
+    }
+    /// \tparam ahead  a later sweep of the mobile particles, none of whose terms is none; \tparam rest  some have run ahead
+    template <int s, Mask terms, Mask allowed, Stage ahead = Stage{}, bool rest = false>
+    void sweep()
+    {
+        with_task<s, terms, allowed>([&](auto const& one) {
+            const std::size_t cells = species<s>().bins.cells();
+            if constexpr (alone) backend_.for_each(cells, one);
+            else {
+                constexpr unsigned sources =
+                    (read_from<s, terms, allowed>(0) != 0 ? 1u : 0u) | (read_from<s, terms, allowed>(1) != 0 ? 2u : 0u);
+                if constexpr (ahead.terms == 0) parts_.run(s, cells, sources, one, backend_, rest);
+                else
+                    with_task<0, ahead.terms, ~Mask(0)>([&](auto const& later) {
+                        auto sees_none = [&](std::size_t cell) {
+                            if constexpr (read_from<0, ahead.terms, ~Mask(0)>(1) == 0) return true;
+                            else return lists<0, 1>().of_cell(cell).index.empty();
+                        };
+                        const typename Parts::template Ahead<decltype(sees_none), std::remove_cvref_t<decltype(later)>>
+                            then{0, species<0>().bins.cells(), 1u, sees_none, later};
+                        parts_.run(s, cells, sources, one, backend_, false, then);
+                    });
+            }
+        });
     }
 public:
     /// What the terms of s <- q keep of a pair.
