@@ -40,10 +40,10 @@ template <class T>
     a.resize(n);
     std::fill(a.begin() + std::ptrdiff_t(zero_from), a.end(), T(0));
 }
-/// Room that growth has left, where it is much.
+/// Room that growth has left, where it is more than a sixteenth.
 [[gnu::noinline]] void give_back(auto& a)
 {
-    if (2 * a.capacity() > 3 * a.size()) a.shrink_to_fit();
+    if (a.capacity() - a.size() > a.size() / 16) a.shrink_to_fit();
 }
 } // namespace detail
 
