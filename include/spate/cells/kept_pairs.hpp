@@ -42,7 +42,7 @@ struct KeptPairs {
         constexpr std::size_t some = 4; // contacts come and go
         const std::size_t more = (n + some - 1) / some * some - room(block), values = more * std::size_t(Count);
         if (value.size() + values > value.capacity()) // not twice as much
-            value.reserve(value.size() + value.size() / 32 + values);
+            value.reserve(value.size() + value.size() / 64 + values);
         value.insert(value.begin() + std::ptrdiff_t(first[block + 1]) * Count, values, T(0));
         for (std::size_t b = block + 1; b < first.size(); ++b) first[b] += std::int32_t(more);
     }

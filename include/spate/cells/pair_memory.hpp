@@ -54,7 +54,7 @@ public:
                             if (!any) continue;
                             const auto lane = std::size_t(std::countr_zero(set));
                             const std::size_t j = lists.number(list.index[row * std::size_t(W) + lane]);
-                            const std::int32_t t = list.target[b * std::size_t(W) + lane];
+                            const std::int32_t t = list.target_of(b * std::size_t(W) + lane);
                             if (j != source.size()) f(std::size_t(at.begin(cell) + t), j, values + n, here);
                         }
                         values += here * std::size_t(Count);
@@ -62,7 +62,9 @@ public:
                 }
             });
         };
-        each([&](std::size_t i, std::size_t, T const*, std::size_t) { ++next[place_of(i) + 1]; }); // a target is in one cell
+        each([&](std::size_t i, std::size_t, T const*, std::size_t) {
+            ++next[place_of(i) + 1];
+        }); // a target is in one cell
         for (std::size_t k = 1; k < next.size(); ++k) next[k] += next[k - 1];
         pairs_.resize(next.back());
         each([&](std::size_t i, std::size_t j, T const* values, std::size_t stride) {
@@ -86,7 +88,7 @@ public:
         backend.for_each(memory.size(), [&](std::size_t cell) {
             auto& kept = memory[cell];
             auto const& list = lists.of_cell(cell);
-            static thread_local Array<T> all; // the cell's own is then as long as need be
+            static thread_local Array<T> all;                        // the cell's own is then as long as need be
             static thread_local std::vector<Pair const*> found_here; // of a row
             all.clear();
             kept.set.assign(list.begin.empty() ? 0 : std::size_t(list.begin.back()), 0);
@@ -94,7 +96,7 @@ public:
             for (std::size_t b = 0; b + 1 < list.begin.size(); ++b) {
                 decltype(of_target(0, first_of)) of_lane[64];
                 for (std::size_t lane = 0; lane < std::size_t(W); ++lane) {
-                    const std::int32_t t = list.target[b * std::size_t(W) + lane];
+                    const std::int32_t t = list.target_of(b * std::size_t(W) + lane);
                     of_lane[lane] = of_target(target.id()[std::size_t(at.begin(cell) + t)], first_of);
                 }
                 std::size_t pairs = 0;
@@ -118,8 +120,8 @@ public:
                 }
                 kept.first.push_back(kept.first.back() + std::int32_t(pairs));
             }
-            if (kept.value.capacity() > all.size() + all.size() / 16) Array<T>().swap(kept.value);
-            kept.value.reserve(1 + all.size() + all.size() / 32); // rows without any may look at the first value
+            if (kept.value.capacity() > all.size() + all.size() / 64) Array<T>().swap(kept.value);
+            kept.value.reserve(1 + all.size()); // rows without any may look at the first value
             kept.value.assign(all.begin(), all.end());
         });
     }

@@ -25,8 +25,9 @@ namespace detail { // of one column: compiled once, not for each field
 template <class T>
 [[gnu::noinline]] void permute(Array<T>& a, std::vector<std::int32_t> const& order, Array<T>& room)
 {
+    room.resize(a.size()); // with the padding
     for (std::size_t k = 0; k < order.size(); ++k) room[k] = a[std::size_t(order[k])];
-    std::copy(room.begin(), room.end(), a.begin());
+    a.swap(room);
 }
 template <class T>
 [[gnu::noinline]] void fill_from(Array<T>& a, std::size_t first, T value)
@@ -214,7 +215,7 @@ public:
     /// Particle k becomes what particle order[k] was.
     void permute(std::vector<std::int32_t> const& order)
     {
-        Array<T> t(order.size());
+        Array<T> t;
         for_each(fields, [&](auto f) {
             for (auto& a : column(f)) detail::permute(a, order, t);
         });

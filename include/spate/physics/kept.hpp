@@ -61,7 +61,7 @@ public:
         const SomeLanes<V> lanes(*set_);
         const std::size_t each = Pairs::count(*set_);
         __builtin_prefetch(from_ + 1024 / sizeof(T)); // the next block's
-        kept.each([&](V& v, int k) __attribute__((always_inline)) { v = lanes.load(from_ + std::size_t(k) * each); });
+        kept.each([&](V & v, int k) __attribute__((always_inline)) { v = lanes.load(from_ + std::size_t(k) * each); });
         return kept;
     }
     /// ... and what will be, of the lanes that touch now.
@@ -92,7 +92,7 @@ private:
     {
         const SomeLanes<V> lanes(*set_);
         const std::size_t each = Pairs::count(*set_);
-        kept.each([&](V& v, int k) __attribute__((always_inline)) {
+        kept.each([&](V & v, int k) __attribute__((always_inline)) {
             const V was = lanes.load(from_ + std::size_t(k) * each);
             v = was + carry_.reach * (v - was);
         });

@@ -31,7 +31,7 @@ struct Source {
     P const& particles;
     R const& packed;
     Lists<P::dim> const& lists;
-    bool same; ///< the target's own species
+    bool same;                                                                     ///< the target's own species
     std::vector<KeptPairs<typename P::real, Layout<P::dim, Kept>::count>>* memory; ///< of the pairs, by cell
     Carry carry;
 };

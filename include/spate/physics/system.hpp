@@ -896,7 +896,7 @@ private:
             for (auto row = std::size_t(lists.begin[block]); row < std::size_t(lists.begin[block + 1]); ++row)
                 for (std::size_t lane = 0; lane < W; ++lane) {
                     const std::size_t j = std::uint32_t(lists.index[row * W + lane]) / stride;
-                    const std::size_t i = first + std::size_t(lists.target[block * W + lane]);
+                    const std::size_t i = first + std::size_t(lists.target_of(block * W + lane));
                     if (j <= i || j == n) continue;
                     double d2 = 0;
                     for (std::size_t c = 0; j < n && c < std::size_t(dim); ++c) {
@@ -1022,7 +1022,7 @@ private:
                 for (std::size_t lane = 0; lane < W; ++lane) {
                     const std::size_t entry = all.number(lists.index[row * W + lane]);
                     if (entry == n) continue;
-                    const std::size_t i = first + std::size_t(lists.target[b * W + lane]);
+                    const std::size_t i = first + std::size_t(lists.target_of(b * W + lane));
                     const std::size_t j = entry < n ? entry : std::size_t(images.of[entry - n - 1]);
                     Ri ri = record_in_double<Ri>(p, i);
                     Rj rj = record_in_double<Rj>(p, j);
