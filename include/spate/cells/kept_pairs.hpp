@@ -51,5 +51,9 @@ struct KeptPairs {
         return set.capacity() * sizeof(Set) + first.capacity() * 4 + value.capacity() * sizeof(T);
     }
 };
+/// Of all cells; where nothing is kept, nothing.
+struct NothingKept {};
+template <Real T, int Count>
+using KeptOfCells = std::conditional_t<Count == 0, NothingKept, std::vector<KeptPairs<T, Count>>>;
 
 } // namespace spate

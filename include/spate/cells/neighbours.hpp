@@ -212,7 +212,7 @@ private:
             lists[q]->begin.assign(1, 0);
             lists[q]->target.clear();
             lists[q]->pairs = 0;
-            lists[q]->in_order = window == W, lists[q]->targets = at.end(k) - at.begin(k);
+            lists[q]->in_order = how.window == 1, lists[q]->targets = at.end(k) - at.begin(k);
             open[q].used = 0;
         }
         int count = 0;

@@ -31,8 +31,8 @@ struct Source {
     P const& particles;
     R const& packed;
     Lists<P::dim> const& lists;
-    bool same;                                                                     ///< the target's own species
-    std::vector<KeptPairs<typename P::real, Layout<P::dim, Kept>::count>>* memory; ///< of the pairs, by cell
+    bool same;                                                          ///< the target's own species
+    KeptOfCells<typename P::real, Layout<P::dim, Kept>::count>* memory; ///< of the pairs, by cell
     Carry carry;
 };
 

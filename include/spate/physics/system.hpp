@@ -678,7 +678,8 @@ public:
         std::apply(
             [&](auto const&... of_species) {
                 auto one = [&](auto const& cells) {
-                    for (auto const& of_cell : cells) b += of_cell.bytes();
+                    if constexpr (requires { cells.size(); })
+                        for (auto const& of_cell : cells) b += of_cell.bytes();
                 };
                 (one(of_species), ...);
             },
@@ -1098,7 +1099,7 @@ private:
             else if constexpr (stores_energy<X>) {
                 Record<dim, double, Set<adds<X>()>> sums;
                 clear(sums);
-                detail::apply(t, ri, u, rj, u, sums, ij, &seen); // what it keeps comes along to where the positions are
+                if (due_ != 0) detail::apply(t, ri, u, rj, u, sums, ij, &seen); // it comes along to where positions are
                 detail::with_views<X>(ri, u, rj, u, sums, ij, &seen,
                                       [&](auto const& a, auto const& b) { sum.add(part * t.energy(a, b, ij)); });
             }
@@ -1669,7 +1670,7 @@ private:
     template <int... k>
     struct AllMemory<std::integer_sequence<int, k...>> {
         using type = std::tuple<PairMemory<T, kept_values<k / species_count, k % species_count>>...>;
-        using InLists = std::tuple<std::vector<KeptPairs<T, kept_values<k / species_count, k % species_count>>>...>;
+        using InLists = std::tuple<KeptOfCells<T, kept_values<k / species_count, k % species_count>>...>;
     };
     typename AllMemory<std::make_integer_sequence<int, species_count * species_count>>::type aside_;
     typename AllMemory<std::make_integer_sequence<int, species_count * species_count>>::InLists memory_; ///< by cell
