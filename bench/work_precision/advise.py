@@ -8,7 +8,7 @@ from pathlib import Path
 
 import ladder
 import model
-from measure import DEFAULTS, Machine
+from measure import Machine, Point, enough
 
 # Cases that are on no ladder: other Re, other L, and levels between those of the ladders.
 HELD_OUT = (
@@ -77,6 +77,11 @@ def known_of(o, case):
     return known
 
 
+def least_of(point):
+    n = len(point.runs)
+    return f", the least of {n} runs" if n > 1 else ""
+
+
 def advise(o):
     """Prints the offers; what was predicted of the best one, and what came out."""
     case = model.CASES[o.case]
@@ -101,13 +106,16 @@ def advise(o):
     family = next((f for f in machine.families if f["family"] == best.family and f["case"] == o.case), None)
     if family is None:
         sys.exit(f"advise: {best.family} is not in the executable: measure again")
-    r = machine.run(family, DEFAULTS | best.setting(here), at_most=max(600, 20 * best.time))
+    point = Point(case.figure, "advise", family, best.time, **best.setting(here))
+    while not point.runs or not enough(point):  # as the ladders were measured
+        point.runs.append(machine.run(family, point.setting, at_most=max(600, 20 * best.time)))
+    r = point.runs[0]
     if r["status"] != "OK":
         sys.exit(f"advise: the run ended in {r['status']} after {r['wall_s']:.2g} s")
-    got, took = r["errors"][known.err_name], known.clock(r)
+    got, took = r["errors"][known.err_name], min(known.clock(one) for one in point.runs)
     print(f"run: C {best.cfl:g}, n {best.n}, dt {r['dt']:.3g} s, {r['steps']} steps of {r['N']} particles")
     print(f"  error {got:.3g}: {got / best.error:.2f} of the prediction, {best.error:.3g}")
-    print(f"  time {took:.3g} s: {took / best.time:.2f} of the prediction, {best.time:.3g} s" + known.clock_name(r))
+    print(f"  time {took:.3g} s: {took / best.time:.2f} of the prediction, {best.time:.3g} s{known.clock_name(r)}{least_of(point)}")
     return {"family": best.family, "C": best.cfl, "n": best.n, "error_predicted": best.error, "error": got,
             "time_predicted": best.time, "time": took}  # fmt: skip
 

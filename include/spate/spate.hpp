@@ -41,7 +41,6 @@
 #include "spate/measure/gauge.hpp"
 #include "spate/measure/leaks.hpp"
 #include "spate/measure/probe.hpp"
-#include "spate/measure/stress.hpp"
 #include "spate/measure/wall_force.hpp"
 #include "spate/physics/dem.hpp"
 #include "spate/physics/wcsph.hpp"

@@ -67,11 +67,4 @@ TYPED_TEST(VecOf, IsChosenLaneByLane)
     }
 }
 
-TEST(Vec, BecomesAPointAndReturns)
-{
-    const Vec<3, double> v{{1, 2, 3}};
-    EXPECT_EQ(vec<3>(point(v)), v);
-    EXPECT_EQ(point(v)[2], 3);
-}
-
 } // namespace

@@ -4,7 +4,7 @@
 // on any number of threads.
 #pragma once
 
-#include "chosen.hpp"
+#include "extreme/chosen.hpp"
 
 #include <functional>
 #include <memory>

@@ -48,7 +48,7 @@ State state(auto const& s)
     return now;
 }
 
-TEST(Pipe, IsSteadyAfterTenTimesOfViscosity)
+TEST(LongPipe, IsSteadyAfterTenTimesOfViscosity)
 {
     const models::Case c("V14", "round pipe, Re = 0.0125, 10 D^2/nu", n);
     const Box<3> box{{0, 0, 0}, {length, D, D}};

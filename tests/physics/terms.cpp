@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <functional>
 
 namespace {
 using namespace spate;
@@ -410,14 +411,16 @@ bool same_bits(V const& a, V const& b)
     store(x, a), store(y, b);
     return std::memcmp(x, y, sizeof x) == 0;
 }
+template <class V, int Dim>
+using AddPair = std::function<Sums<V, Dim>(State<Dim> const&, State<Dim> const&, Sums<V, Dim> const&)>;
+
 /// The sums before and after a pair at a distance: the sentinel's place, and just outside of the range.
 template <class V, int Dim>
-void expect_nothing(auto const& interaction, auto const& term)
+void expect_nothing_from(double range, AddPair<V, Dim> const& add)
 {
     using T = scalar_t<V>;
     using Sentinel = Packed<Dim, T, Fields<Position>>;
     oracle::Dice dice(6);
-    const double range = interaction.range();
     for (int trial = 0; trial < 40; ++trial) {
         auto draw = [&] {
             State<Dim> s;
@@ -441,7 +444,7 @@ void expect_nothing(auto const& interaction, auto const& term)
             before[density] = V(dice.real(500, 1500));
             for (int c = 0; c < Dim; ++c) before[acceleration][c] = V(dice.real(-1, 1));
         }
-        const Sums<V, Dim> after = add_pair<V>(interaction, term, target, other, before);
+        const Sums<V, Dim> after = add(target, other, before);
         EXPECT_TRUE(same_bits(before[density_rate], after[density_rate])) << trial;
         EXPECT_TRUE(same_bits(before[density], after[density])) << trial;
         for (int c = 0; c < Dim; ++c) {
@@ -450,6 +453,13 @@ void expect_nothing(auto const& interaction, auto const& term)
             EXPECT_TRUE(same_bits(before[crowding][c], after[crowding][c])) << trial;
         }
     }
+}
+template <class V, int Dim>
+void expect_nothing(auto const& interaction, auto const& term)
+{
+    expect_nothing_from<V, Dim>(interaction.range(), [&](auto const& target, auto const& other, auto const& before) {
+        return add_pair<V>(interaction, term, target, other, before);
+    });
 }
 template <class V, class K>
 void expect_nothing_of_all_terms()
@@ -505,14 +515,14 @@ TYPED_TEST(BeyondTheSupport, AContactAddsExactlyNothing)
 TEST(Terms, GiveInPacksTheBitsOfScalars)
 {
     oracle::Dice dice(9);
-    auto check = [&](auto const& term) {
+    using Both = std::pair<Sums<Pack<double>, 2>, Sums<double, 2>>;
+    auto expect_same = [&](std::function<Both(State<2> const&, State<2> const&)> const& of) {
         for (int trial = 0; trial < 50; ++trial) {
             State<2> a = i, b = j;
             for (int c = 0; c < 2; ++c) a.x[c] = dice.real(-1.5, 1.5), a.v[c] = dice.real(-3, 3);
-            Sums<Pack<double>, 2> zero;
-            clear(zero);
-            const auto packed = add_pair<Pack<double>>(plane, term, a, b, zero);
-            const auto scalar = of_pair(plane, term, a, b);
+            const Both both = of(a, b);
+            auto const& packed = both.first;
+            auto const& scalar = both.second;
             EXPECT_TRUE(same_bits(packed[density_rate], Pack<double>(scalar[density_rate])));
             EXPECT_TRUE(same_bits(packed[density], Pack<double>(scalar[density])));
             for (int c = 0; c < 2; ++c) {
@@ -521,6 +531,13 @@ TEST(Terms, GiveInPacksTheBitsOfScalars)
                 EXPECT_TRUE(same_bits(packed[crowding][c], Pack<double>(scalar[crowding][c])));
             }
         }
+    };
+    Sums<Pack<double>, 2> zero;
+    clear(zero);
+    auto check = [&](auto const& term) {
+        expect_same([&](State<2> const& a, State<2> const& b) {
+            return Both{add_pair<Pack<double>>(plane, term, a, b, zero), of_pair(plane, term, a, b)};
+        });
     };
     check(Continuity<1>{});
     check(Continuity<2>{});

@@ -7,6 +7,7 @@
 #include "spate/boundary/obstacle.hpp"
 
 #include <optional>
+#include <vector>
 
 namespace spate {
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// \file
-/// \brief A vector of 1 to 3 components over a scalar or a pack, for use inside terms (Eigen is the vector outside).
+/// \brief A vector of 1 to 3 components over a scalar or a pack, of the interface and inside terms.
 /// No expression templates: `auto` is safe.
 #pragma once
 
 #include "spate/core/pack.hpp"
-
-#include <Eigen/Core>
 
 namespace spate {
 
@@ -120,25 +118,6 @@ template <class M, int Dim, class V>
 {
     for (int k = 0; k < Dim; ++k) a.c[k] = where(m, a.c[k], b.c[k]);
     return a;
-}
-
-/// A point or a vector of the interface: set-up, parameters, results.
-template <int Dim>
-using Point = Eigen::Matrix<double, Dim, 1>;
-
-template <int Dim>
-Vec<Dim, double> vec(Point<Dim> const& p)
-{
-    Vec<Dim, double> v;
-    for (int k = 0; k < Dim; ++k) v[k] = p[k];
-    return v;
-}
-template <int Dim>
-Point<Dim> point(Vec<Dim, double> const& v)
-{
-    Point<Dim> p;
-    for (int k = 0; k < Dim; ++k) p[k] = v[k];
-    return p;
 }
 
 } // namespace spate

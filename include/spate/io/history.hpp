@@ -27,6 +27,14 @@ namespace spate::io {
 
 namespace detail {
 
+/// A matrix of fixed size, such as Eigen's: what a measure of stress returns.
+template <class M>
+concept Tensor = requires(M const& m)
+{
+    M::RowsAtCompileTime, M::ColsAtCompileTime;
+    double(m(0, 0));
+};
+
 /// One line of a table, its cells separated by commas; numbers as the shortest decimal that reads back as the same.
 class Row {
 public:
@@ -42,11 +50,10 @@ public:
     {
         for (int c = 0; c < Dim; ++c) add(value[c]);
     }
-    template <int Dim>
-    void add(Eigen::Matrix<double, Dim, Dim> const& value)
+    void add(Tensor auto const& value)
     {
-        for (int a = 0; a < Dim; ++a)
-            for (int b = 0; b < Dim; ++b) add(value(a, b));
+        for (int a = 0; a < value.RowsAtCompileTime; ++a)
+            for (int b = 0; b < value.ColsAtCompileTime; ++b) add(double(value(a, b)));
     }
     std::string const& text() const { return text_; }
 
@@ -64,12 +71,11 @@ template <int Dim>
     return all;
 }
 
-template <int Dim>
-[[gnu::cold]] std::vector<std::string> headings(std::string const& name, Eigen::Matrix<double, Dim, Dim> const&)
+[[gnu::cold]] std::vector<std::string> headings(std::string const& name, Tensor auto const& value)
 {
     std::vector<std::string> all;
-    for (int a = 0; a < Dim; ++a)
-        for (int b = 0; b < Dim; ++b) all.push_back(name + "_" + "xyz"[a] + "xyz"[b]);
+    for (int a = 0; a < value.RowsAtCompileTime; ++a)
+        for (int b = 0; b < value.ColsAtCompileTime; ++b) all.push_back(name + "_" + "xyz"[a] + "xyz"[b]);
     return all;
 }
 

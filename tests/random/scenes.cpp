@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Scenes at random, most of them nonsense: each ends well, with a state that is finite and where it must be, or it says why
 // not. A failure prints the seed of its scene.
-#include "scene.hpp"
+#include "extreme/scene.hpp"
 
 #include <cmath>
 #include <limits>
