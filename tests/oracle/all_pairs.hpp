@@ -80,7 +80,7 @@ bool each_entry(Lists<Dim> const& lists, Binning<Dim> const& at, Binning<Dim> co
                 const std::size_t slot = b * w + lane;
                 const auto targets = std::size_t(at.end(k) - at.begin(k));
                 bool ended = slot >= targets;
-                const std::size_t i = std::size_t(at.begin(k)) + (ended ? 0 : std::size_t(cell.target[slot]));
+                const std::size_t i = std::size_t(at.begin(k)) + (ended ? 0 : std::size_t(cell.target_of(slot)));
                 for (auto row = std::size_t(cell.begin[b]); row < std::size_t(cell.begin[b + 1]); ++row) {
                     const std::size_t v = lists.number(cell.index[row * w + lane]);
                     if (v == sources) {

@@ -29,7 +29,8 @@ template <class Backend>
 auto crowd(Backend backend)
 {
     Simulation box(dem<2>({.mass = 0.1, .radius = r}, GrowingPush{unit}), SymplecticEuler{},
-                   Periodic(Box<2>{{0, 0}, {1, 1}}), backend, Double{}, NoWatch{});
+                   Periodic(Box<2>{{0, 0}, {1, 1}}), backend, Double{}, NoWatch{},
+                   Neighbours{.skin = 0.3, .finer = 1, .window = 1});
     box.add({0.5, 0.5});
     box.add({0.5 + 1.5 * r, 0.5});
     for (int k = 0; k < 40; ++k) // pass by at speed and force rebuilds

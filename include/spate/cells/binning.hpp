@@ -53,9 +53,9 @@ public:
     template <class P, Field F = Position>
     void sort(P& p, Grid<Dim> const& grid, F where = {})
     {
-        const auto places = Places<Dim, typename P::real>::of(p, where); // the columns stay where they are
-        p.permute(order_of(places, p.id(), grid));
-        make_images(places, grid);
+        using Places = spate::Places<Dim, typename P::real>;
+        p.permute(order_of(Places::of(p, where), p.id(), grid));
+        make_images(Places::of(p, where), grid);
     }
 
     [[nodiscard]] std::size_t cells() const { return cells_.size(); }

@@ -42,8 +42,15 @@ struct Neighbours {
 struct CellLists {
     std::vector<std::int32_t> begin, target;
     Array<std::int32_t> index;
-    std::int64_t pairs = 0; ///< within range when the lists were built
-    bool in_order = true;   ///< lanes hold targets one after the other
+    std::int64_t pairs = 0;   ///< within range when the lists were built
+    bool in_order = true;     ///< lanes hold targets one after the other: `target` is not needed
+    std::int32_t targets = 0; ///< of the cell
+
+    /// The particle of the cell in a lane, of all lanes of all blocks.
+    [[nodiscard]] std::int32_t target_of(std::size_t lane) const
+    {
+        return in_order ? std::min(std::int32_t(lane), targets - 1) : target[lane];
+    }
 };
 
 /// Particles of a source that others own, as far as targets here reach: their records follow those of the images.
@@ -205,7 +212,7 @@ private:
             lists[q]->begin.assign(1, 0);
             lists[q]->target.clear();
             lists[q]->pairs = 0;
-            lists[q]->in_order = window == W;
+            lists[q]->in_order = how.window == 1, lists[q]->targets = at.end(k) - at.begin(k);
             open[q].used = 0;
         }
         int count = 0;
@@ -268,8 +275,11 @@ private:
             }
         }
         if (count > 0) close_window();
-        for (std::size_t q = 0; q < sources; ++q)
-            lists[q]->index.assign(open[q].list.begin(), open[q].list.begin() + std::ptrdiff_t(open[q].used));
+        for (std::size_t q = 0; q < sources; ++q) {
+            auto& index = lists[q]->index;
+            if (index.capacity() > open[q].used + open[q].used / 32) Array<std::int32_t>().swap(index);
+            index.assign(open[q].list.begin(), open[q].list.begin() + std::ptrdiff_t(open[q].used));
+        }
     }
 
     template <class T>
@@ -378,7 +388,7 @@ private:
                 const bool real = b + l < count;
                 const auto t = std::size_t(order[std::size_t(real ? b + l : count - 1)]);
                 const std::int32_t length = real ? open.length[t] : 0;
-                lists.target.push_back(first + std::int32_t(t));
+                if (!lists.in_order) lists.target.push_back(first + std::int32_t(t));
                 std::int32_t* const row = real ? open.row.data() + t * open.stride : open.nobody.data();
                 std::fill(row + length, row + longest + 8, sentinel / record);
                 open.lane[std::size_t(l)] = row;

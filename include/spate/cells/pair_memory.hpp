@@ -4,7 +4,7 @@
 /// particles, so that sorting does not matter. Nothing is stored for a pair whose memory is zero.
 #pragma once
 
-#include "spate/cells/neighbours.hpp"
+#include "spate/cells/kept_pairs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +18,7 @@ namespace spate {
 template <Real T, int Count>
 class PairMemory {
 public:
+    using Kept = KeptPairs<T, Count>;
     struct Pair {
         std::uint32_t i, j; ///< ids of target and source
         std::array<T, std::size_t(Count)> value;
@@ -25,7 +26,7 @@ public:
 
     /// Takes what the lists hold.
     template <int Dim, class P, class Q, class Workers>
-    void take(Lists<Dim> const& lists, std::vector<Array<T>> const& memory, P const& target, Binning<Dim> const& at,
+    void take(Lists<Dim> const& lists, std::vector<Kept> const& memory, P const& target, Binning<Dim> const& at,
               Q const& source, Binning<Dim> const& of, int W, Workers const& backend,
               std::optional<Foreign<Dim, T>> const& foreign = {})
     {
@@ -37,26 +38,39 @@ public:
         auto place_of = [&](std::size_t i) { return dense ? std::size_t(target.id()[i]) : i; };
         auto each = [&](auto const& f) {
             backend.for_each(memory.size(), [&](std::size_t cell) {
-                T const* const values = memory[cell].data();
-                each_slot(lists.of_cell(cell), W, [&](std::size_t slot, std::size_t row, std::size_t lane, auto t) {
-                    bool any = false;
-                    for (int c = 0; c < Count; ++c) {
-                        const T value = values[place(row, c, W) + lane];
-                        any = any || value != T(0) || std::signbit(value);
+                auto const& kept = memory[cell];
+                auto const& list = lists.of_cell(cell);
+                for (std::size_t b = 0; b + 1 < list.begin.size(); ++b) {
+                    T const* values = kept.of(b); // of a row
+                    for (auto row = std::size_t(list.begin[b]); row < std::size_t(list.begin[b + 1]); ++row) {
+                        const auto here = Kept::count(kept.set[row]);
+                        std::size_t n = 0;
+                        for (unsigned set = kept.set[row]; set != 0; set &= set - 1, ++n) {
+                            bool any = false;
+                            for (std::size_t c = 0; c < std::size_t(Count); ++c) {
+                                const T value = values[c * here + n];
+                                any = any || value != T(0) || std::signbit(value);
+                            }
+                            if (!any) continue;
+                            const auto lane = std::size_t(std::countr_zero(set));
+                            const std::size_t j = lists.number(list.index[row * std::size_t(W) + lane]);
+                            const std::int32_t t = list.target_of(b * std::size_t(W) + lane);
+                            if (j != source.size()) f(std::size_t(at.begin(cell) + t), j, values + n, here);
+                        }
+                        values += here * std::size_t(Count);
                     }
-                    const std::size_t j = any ? lists.number(lists.of_cell(cell).index[slot]) : source.size();
-                    if (j == source.size()) return;
-                    f(std::size_t(at.begin(cell) + t), j, values + place(row, 0, W) + lane);
-                });
+                }
             });
         };
-        each([&](std::size_t i, std::size_t, T const*) { ++next[place_of(i) + 1]; }); // a target is in one cell
+        each([&](std::size_t i, std::size_t, T const*, std::size_t) {
+            ++next[place_of(i) + 1];
+        }); // a target is in one cell
         for (std::size_t k = 1; k < next.size(); ++k) next[k] += next[k - 1];
         pairs_.resize(next.back());
-        each([&](std::size_t i, std::size_t j, T const* values) {
+        each([&](std::size_t i, std::size_t j, T const* values, std::size_t stride) {
             Pair& p = pairs_[next[place_of(i)]++];
             p.i = target.id()[i], p.j = id_of(j, source, of, foreign);
-            for (int c = 0; c < Count; ++c) p.value[std::size_t(c)] = values[std::ptrdiff_t(c) * W];
+            for (std::size_t c = 0; c < std::size_t(Count); ++c) p.value[c] = values[c * stride];
         });
         if (!dense) std::sort(pairs_.begin(), pairs_.end(), before);
         else
@@ -65,28 +79,50 @@ public:
     }
     /// Gives it back to new lists; pairs that are in no list any more are forgotten, new ones begin at zero.
     template <int Dim, class P, class Q, class Workers>
-    void give(Lists<Dim> const& lists, std::vector<Array<T>>& memory, P const& target, Binning<Dim> const& at,
+    void give(Lists<Dim> const& lists, std::vector<Kept>& memory, P const& target, Binning<Dim> const& at,
               Q const& source, Binning<Dim> const& of, int W, Workers const& backend,
               std::optional<Foreign<Dim, T>> const& foreign = {}) const
     {
         memory.resize(at.cells());
         const auto first_of = index();
         backend.for_each(memory.size(), [&](std::size_t cell) {
-            auto& values = memory[cell];
-            values.assign(lists.of_cell(cell).index.size() * std::size_t(Count), T(0));
-            std::int32_t last = -1;
-            auto range = of_target(0, first_of);
-            each_slot(lists.of_cell(cell), W, [&](std::size_t slot, std::size_t row, std::size_t lane, std::int32_t t) {
-                const std::uint32_t i = target.id()[std::size_t(at.begin(cell) + t)];
-                if (t != last) range = of_target(i, first_of), last = t;
-                if (range.first == range.second) return;
-                const std::size_t j = lists.number(lists.of_cell(cell).index[slot]);
-                if (j == source.size()) return;
-                const std::uint32_t id = id_of(j, source, of, foreign);
-                const auto found = std::lower_bound(range.first, range.second, Pair{i, id, {}}, before);
-                if (found == range.second || found->j != id) return;
-                for (int c = 0; c < Count; ++c) values[place(row, c, W) + lane] = found->value[std::size_t(c)];
-            });
+            auto& kept = memory[cell];
+            auto const& list = lists.of_cell(cell);
+            static thread_local Array<T> all;                        // the cell's own is then as long as need be
+            static thread_local std::vector<Pair const*> found_here; // of a row
+            all.clear();
+            kept.set.assign(list.begin.empty() ? 0 : std::size_t(list.begin.back()), 0);
+            kept.first.assign(1, 0);
+            for (std::size_t b = 0; b + 1 < list.begin.size(); ++b) {
+                decltype(of_target(0, first_of)) of_lane[64];
+                for (std::size_t lane = 0; lane < std::size_t(W); ++lane) {
+                    const std::int32_t t = list.target_of(b * std::size_t(W) + lane);
+                    of_lane[lane] = of_target(target.id()[std::size_t(at.begin(cell) + t)], first_of);
+                }
+                std::size_t pairs = 0;
+                for (auto row = std::size_t(list.begin[b]); row < std::size_t(list.begin[b + 1]); ++row) {
+                    found_here.clear();
+                    for (std::size_t lane = 0; lane < std::size_t(W); ++lane) {
+                        auto const& mine = of_lane[lane];
+                        if (mine.first == mine.second) continue;
+                        const std::size_t j = lists.number(list.index[row * std::size_t(W) + lane]);
+                        if (j == source.size()) continue;
+                        const std::uint32_t id = id_of(j, source, of, foreign);
+                        auto found = mine.first;
+                        while (found != mine.second && found->j < id) ++found; // few
+                        if (found == mine.second || found->j != id) continue;
+                        kept.set[row] = typename Kept::Set(kept.set[row] | 1u << lane);
+                        found_here.push_back(&*found);
+                    }
+                    for (std::size_t c = 0; c < std::size_t(Count); ++c)
+                        for (Pair const* p : found_here) all.push_back(p->value[c]);
+                    pairs += found_here.size();
+                }
+                kept.first.push_back(kept.first.back() + std::int32_t(pairs));
+            }
+            if (kept.value.capacity() > all.size() + all.size() / 64) Array<T>().swap(kept.value);
+            kept.value.reserve(1 + all.size()); // rows without any may look at the first value
+            kept.value.assign(all.begin(), all.end());
         });
     }
     [[nodiscard]] std::size_t bytes() const { return pairs_.capacity() * sizeof(Pair); }
@@ -111,12 +147,6 @@ public:
     /// Nothing is aside any more, and no room is kept for it: it would be a fifth of all memory.
     void clear() { std::vector<Pair>().swap(pairs_); }
 
-    /// Where component c of a row of W slots begins.
-    static std::size_t place(std::size_t row, int c, int W)
-    {
-        return (row * std::size_t(Count) + std::size_t(c)) * std::size_t(W);
-    }
-
 private:
     static bool before(Pair const& a, Pair const& b) { return a.i != b.i ? a.i < b.i : a.j < b.j; }
     /// Where the pairs of each target begin, by its id; empty where ids are few among many.
@@ -139,14 +169,6 @@ private:
         }
         return std::pair{std::lower_bound(pairs_.begin(), pairs_.end(), Pair{i, 0, {}}, before),
                          std::upper_bound(pairs_.begin(), pairs_.end(), Pair{i, ~std::uint32_t(0), {}}, before)};
-    }
-    /// f(slot, row, lane, target in the cell) for each entry of a cell's lists.
-    static void each_slot(CellLists const& lists, int W, auto const& f)
-    {
-        for (std::size_t b = 0; b + 1 < lists.begin.size(); ++b)
-            for (auto row = std::size_t(lists.begin[b]); row < std::size_t(lists.begin[b + 1]); ++row)
-                for (std::size_t lane = 0; lane < std::size_t(W); ++lane)
-                    f(row * std::size_t(W) + lane, row, lane, lists.target[b * std::size_t(W) + lane]);
     }
     /// The particle behind a record other than the sentinel: of an image the particle itself.
     template <int Dim, class Q>

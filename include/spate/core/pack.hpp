@@ -194,6 +194,25 @@ template <class M>
 {
     return xsimd::any(m.m);
 }
+/// One bit a lane.
+[[gnu::always_inline]] inline unsigned bits(bool m) { return unsigned(m); }
+template <class T, class A>
+[[gnu::always_inline]] inline unsigned bits(detail::LaneMask<xsimd::batch_bool<T, A>> const& m)
+{
+#if defined(__AVX512F__)
+    return unsigned(m.m.data);
+#elif defined(__AVX2__)
+    if constexpr (std::same_as<T, double>) return unsigned(_mm256_movemask_pd(m.m.data));
+    else return unsigned(_mm256_movemask_ps(m.m.data));
+#else
+    constexpr auto W = xsimd::batch_bool<T, A>::size;
+    bool lane[W];
+    m.m.store_unaligned(lane);
+    unsigned all = 0;
+    for (std::size_t k = 0; k < W; ++k) all |= unsigned(lane[k]) << k;
+    return all;
+#endif
+}
 
 /// V from width<V> values at p, of any alignment.
 template <class V>
@@ -354,6 +373,61 @@ template <int Stride, int Count, class V>
         for (int f = 0; f < Count; ++f) out[f] = V(decltype(V::b)::load_aligned(t[f]));
     }
 }
+
+/// Some lanes of a pack, whose values lie side by side in memory.
+template <class V>
+class SomeLanes {
+public:
+    using T = scalar_t<V>;
+    [[gnu::always_inline]] explicit SomeLanes(unsigned set) : set_(set) {}
+
+    /// Values from p on in these lanes, in order; the others are 0. May read width<V> values.
+    [[gnu::always_inline]] V load(T const* p) const
+    {
+#if defined(__AVX512F__) && defined(__BMI2__)
+        if constexpr (in_registers)
+            return V(decltype(V::b)(_mm512_maskz_permutexvar_pd(
+                __mmask8(set_), lanes(_pdep_u64(0x0706050403020100u, bytes())), _mm512_loadu_pd(p))));
+        else
+#endif
+        {
+            T lane[std::size_t(width<V>)];
+            for (int k = 0; k < width<V>; ++k) lane[k] = ((set_ >> k) & 1) != 0 ? *p++ : T(0);
+            return spate::load<V>(lane);
+        }
+    }
+    /// These lanes of v to p on.
+    [[gnu::always_inline]] void store(T* p, V const& v) const
+    {
+#if defined(__AVX512F__) && defined(__BMI2__)
+        if constexpr (in_registers)
+            _mm512_mask_storeu_pd(p, __mmask8((1u << std::popcount(set_)) - 1),
+                                  _mm512_permutexvar_pd(lanes(_pext_u64(0x0706050403020100u, bytes())), v.b));
+        else
+#endif
+        {
+            T lane[std::size_t(width<V>)];
+            spate::store(lane, v);
+            for (int k = 0; k < width<V>; ++k)
+                if (((set_ >> k) & 1) != 0) *p++ = lane[k];
+        }
+    }
+
+private:
+#if defined(__AVX512F__) && defined(__BMI2__)
+    // Not expand and compress: compilers make one with memory of them, which takes a hundred cycles on some processors.
+    static constexpr bool in_registers = std::same_as<V, Pack<double>>;
+    [[nodiscard, gnu::always_inline]] std::uint64_t bytes() const
+    {
+        return _pdep_u64(set_, 0x0101010101010101u) * 0xff; // one a lane
+    }
+    [[gnu::always_inline]] static __m512i lanes(std::uint64_t of_bytes)
+    {
+        return _mm512_cvtepu8_epi64(_mm_cvtsi64_si128(std::int64_t(of_bytes)));
+    }
+#endif
+    unsigned set_;
+};
 
 /// to[k * W + l] = factor * row[l][s + k] for k, l < 8: eight entries of eight lists, interleaved.
 inline void interleave_8(std::int32_t const* const* row, std::int32_t s, int W, std::int32_t factor, std::int32_t* to)

@@ -25,8 +25,9 @@ namespace detail { // of one column: compiled once, not for each field
 template <class T>
 [[gnu::noinline]] void permute(Array<T>& a, std::vector<std::int32_t> const& order, Array<T>& room)
 {
+    room.resize(a.size()); // with the padding
     for (std::size_t k = 0; k < order.size(); ++k) room[k] = a[std::size_t(order[k])];
-    std::copy(room.begin(), room.end(), a.begin());
+    a.swap(room);
 }
 template <class T>
 [[gnu::noinline]] void fill_from(Array<T>& a, std::size_t first, T value)
@@ -40,10 +41,10 @@ template <class T>
     a.resize(n);
     std::fill(a.begin() + std::ptrdiff_t(zero_from), a.end(), T(0));
 }
-/// Room that growth has left, where it is much.
+/// Room that growth has left, where it is more than a sixteenth.
 [[gnu::noinline]] void give_back(auto& a)
 {
-    if (2 * a.capacity() > 3 * a.size()) a.shrink_to_fit();
+    if (a.capacity() - a.size() > a.size() / 16) a.shrink_to_fit();
 }
 } // namespace detail
 
@@ -214,7 +215,7 @@ public:
     /// Particle k becomes what particle order[k] was.
     void permute(std::vector<std::int32_t> const& order)
     {
-        Array<T> t(order.size());
+        Array<T> t;
         for_each(fields, [&](auto f) {
             for (auto& a : column(f)) detail::permute(a, order, t);
         });

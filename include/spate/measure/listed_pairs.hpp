@@ -30,7 +30,7 @@ template <class S, class Near>
             const auto row = std::int32_t(slot / W);
             const auto block =
                 std::size_t(std::upper_bound(mine.begin.begin(), mine.begin.end(), row) - mine.begin.begin()) - 1;
-            const std::size_t i = first + std::size_t(mine.target[block * W + slot % W]);
+            const std::size_t i = first + std::size_t(mine.target_of(block * W + slot % W));
             const Near who = system.near(j, others);
             f(i, who, p.at(position, i) - who.x);
         }

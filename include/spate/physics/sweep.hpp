@@ -5,11 +5,7 @@
 /// skin, or on who runs the cell.
 #pragma once
 
-#include "spate/cells/neighbours.hpp"
-#include "spate/core/term.hpp"
-#include "spate/physics/plan.hpp"
-
-#include <tuple>
+#include "spate/physics/kept.hpp"
 
 namespace spate {
 
@@ -24,26 +20,19 @@ struct Packed {
     Array<T> data;
 };
 
-/// How a sweep treats what terms keep of a pair.
-struct Carry {
-    double elapsed = 0; ///< from the state that it belongs to, to that of the sweep [s]
-    bool keep = false;  ///< it becomes what the terms make of it; else they make it for this sweep only
-    double reach = 1;   ///< ... and goes on at that rate, to this many times the elapsed time
-};
-
 /// One source of a sweep: its records, what is uniform in it, the lists target <- source, and the terms that read it.
-/// \tparam Kept_  what the terms keep of its pairs
-template <Mask terms_, class Kept_, class P, class R>
+/// \tparam Kept_  what the terms keep of its pairs    \tparam itself_  it is the target's own species
+template <Mask terms_, class Kept_, class P, class R, bool itself_ = false>
 struct Source {
+    static constexpr bool itself = itself_;
     static constexpr Mask terms = terms_;
     using Kept = Kept_;
     using L = typename R::L;
     P const& particles;
     R const& packed;
     Lists<P::dim> const& lists;
-    bool same; ///< the target's own species
-    std::vector<Array<typename P::real>>*
-        memory; ///< of the pairs, by cell; of W lanes together, component by component
+    bool same;                                                          ///< the target's own species
+    KeptOfCells<typename P::real, Layout<P::dim, Kept>::count>* memory; ///< of the pairs, by cell
     Carry carry;
 };
 
@@ -55,140 +44,13 @@ inline constexpr bool short_lists = requires
 };
 
 namespace detail {
-template <Mask terms, std::size_t t>
-inline constexpr bool picked = ((terms >> t) & 1) != 0;
-
-/// f(i, j): a pair as the term T may see it; `kept` is the memory of the pair.
-template <class T, class Ri, class Ui, class Rj, class Uj, class A, class Pair, class K>
-[[gnu::always_inline]] inline void with_views(Ri const& ri, Ui const& ui, Rj const& rj, Uj const& uj, A& sums,
-                                              Pair const& ij, K* kept, auto const& f)
-{
-    using Readable_i = std::remove_cvref_t<decltype(reads_i<T>())>;
-    using Readable_j = std::remove_cvref_t<decltype(reads_j<T>())>;
-    using Addable = std::remove_cvref_t<decltype(adds<T>())>;
-    using H = std::conditional_t<decltype(keeps<T>())::size == 0, void, K>;
-    H* memory = nullptr;
-    if constexpr (!std::is_void_v<H>) memory = kept;
-    const View<Readable_j, Fields<>, Rj, Uj, void> j{rj, uj, nullptr, {}};
-    if constexpr (requires { ij.mask; }) {
-        using M = std::remove_cvref_t<decltype(ij.mask)>;
-        View<Readable_i, Addable, Ri, Ui, A, M, H> i{ri, ui, &sums, ij.mask, memory};
-        f(i, j);
-    }
-    else {
-        View<Readable_i, Addable, Ri, Ui, A, Always, H> i{ri, ui, &sums, {}, memory};
-        f(i, j);
-    }
-}
-/// One term on one pack of pairs.
-template <class Ri, class Ui, class Rj, class Uj, class A, class Pair, class T, class K = void>
-[[gnu::always_inline]] inline void apply(T const& term, Ri const& ri, Ui const& ui, Rj const& rj, Uj const& uj, A& sums,
-                                         Pair const& ij, K* kept = nullptr)
-{
-    with_views<T>(
-        ri, ui, rj, uj, sums, ij, kept, [&](auto& i, auto const& j) __attribute__((always_inline)) { term(i, j, ij); });
-}
-template <Mask terms, class Ri, class Ui, class Rj, class Uj, class A, class Pair, class... T, std::size_t... t,
-          class K = void>
-[[gnu::always_inline]] inline void apply_all(std::tuple<T...> const& all, Ri const& ri, Ui const& ui, Rj const& rj,
-                                             Uj const& uj, A& sums, Pair const& ij, std::index_sequence<t...>,
-                                             K* kept = nullptr)
-{
-    auto one = [&]<std::size_t k>(std::integral_constant<std::size_t, k>) __attribute__((always_inline))
-    {
-        if constexpr (picked<terms, k>) apply(std::get<k>(all), ri, ui, rj, uj, sums, ij, kept);
-    };
-    (one(std::integral_constant<std::size_t, t>{}), ...);
-}
-/// The memory of W pairs: loaded before the terms, stored after them; out of contact it is zero.
-template <int Dim, class V, class S>
-struct Kept;
-template <int Dim, class V, class... F>
-struct Kept<Dim, V, Fields<F...>> {
-    using L = Layout<Dim, Fields<F...>>;
-    struct Seen : Record<Dim, V, Fields<F...>> {
-        V elapsed; ///< as i[elapsed] [s]
-    } record;
-    scalar_t<V>* at;
-
-    [[gnu::always_inline]] Kept(scalar_t<V>* place, V const& elapsed) : at(place)
-    {
-        record.elapsed = elapsed;
-        each([&](V& v, int k) { v = load<V>(at + k * width<V>); });
-    }
-    [[gnu::always_inline]] void put_back(auto const& mask, Carry const& carry)
-    {
-        each([&](V& v, int k) { store(at + k * width<V>, where(mask, reached(v, k, carry), V(0))); });
-    }
-    [[gnu::always_inline]] void put_back(Carry const& carry)
-    {
-        each([&](V& v, int k) { store(at + k * width<V>, reached(v, k, carry)); });
-    }
-    /// None of the pairs is in contact.
-    [[gnu::always_inline]] static void forget(scalar_t<V>* place)
-    {
-        for (int k = 0; k < L::count; ++k) store(place + k * width<V>, V(0));
-    }
-
-private:
-    [[gnu::always_inline]] V reached(V const& v, int k, Carry const& carry) const
-    {
-        if (carry.reach == 1) return v;
-        const V old = load<V>(at + k * width<V>);
-        return old + carry.reach * (v - old);
-    }
-    [[gnu::always_inline]] void each(auto const& f)
-    {
-        auto one = [&]<class G>(G g) {
-            if constexpr (G::rank == 0) f(record[g], L::template offset<G>);
-            else
-                for (int c = 0; c < components<G, Dim>; ++c) f(record[g][c], L::template offset<G> + c);
-        };
-        (one(F{}), ...);
-    }
-};
-/// A position in two parts: near ones differ exactly by their heads, and then by their tails.
-template <class X>
-struct Split {
-    X const &head, &tail;
-    [[gnu::always_inline]] friend X operator-(Split const& a, Split const& b)
-    {
-        return (a.head - b.head) + (a.tail - b.tail);
-    }
-};
-/// One particle as the interaction sees it, with a position in two parts.
-template <class S, class R, class U>
-struct SplitView {
-    View<S, Fields<>, R, U, void> whole;
-    template <Field F>
-    [[gnu::always_inline]] decltype(auto) operator[](F f) const
-    {
-        if constexpr (std::same_as<F, Position>) {
-            using X = std::remove_cvref_t<decltype(whole.record[position])>;
-            return Split<X>{whole.record[position], whole.record[position_tail]};
-        }
-        else return whole[f];
-    }
-};
-template <class I, class V, class Ri, class Ui, class Rj, class Uj>
-[[gnu::always_inline]] inline auto pair_of(I const& interaction, Ri const& ri, Ui const& ui, Rj const& rj, Uj const& uj)
-{
-    using S = std::remove_cv_t<decltype(I::reads)>;
-    if constexpr (Ri::template has<PositionTail>)
-        return interaction.template pair<V>(SplitView<S, Ri, Ui>{{ri, ui, nullptr, {}}},
-                                            SplitView<S, Rj, Uj>{{rj, uj, nullptr, {}}});
-    else
-        return interaction.template pair<V>(View<S, Fields<>, Ri, Ui, void>{ri, ui, nullptr, {}},
-                                            View<S, Fields<>, Rj, Uj, void>{rj, uj, nullptr, {}});
-}
 /// Whether an interaction that tells touching pairs apart, touch(i, j), finds any among W.
 template <class I, class Ri, class Ui, class Rj, class Uj>
 [[gnu::always_inline]] inline bool may_meet(I const& interaction, Ri const& ri, Ui const& ui, Rj const& rj,
                                             Uj const& uj)
 {
-    using S = std::remove_cv_t<decltype(I::reads)>;
-    const View<S, Fields<>, Ri, Ui, void> i{ri, ui, nullptr, {}};
-    const View<S, Fields<>, Rj, Uj, void> j{rj, uj, nullptr, {}};
+    const auto i = seen_by<I>(ri, ui);
+    const auto j = seen_by<I>(rj, uj);
     if constexpr (requires { interaction.touch(i, j); }) return spate::any(interaction.touch(i, j));
     else return true;
 }
@@ -208,6 +70,13 @@ template <class V, class I, class Tuple, class Ri, class Ui, class A, class Src>
     constexpr bool each_lane = short_lists<I>;
     constexpr std::size_t ahead = (each_lane ? 16 : 48) * std::size_t(width<V>);
     const std::size_t last = lists.index.size() - std::size_t(each_lane ? width<V> : 1);
+    using Memory = std::conditional_t<Src::Kept::size == 0, NoMemory, BlockMemory<I::dim, V, typename Src::Kept>>;
+    auto memory = [&]() __attribute__((always_inline))
+    {
+        if constexpr (Src::Kept::size == 0) return Memory{};
+        else return Memory((*source.memory)[cell], block, std::size_t(lists.begin[block]), source.carry);
+    }
+    ();
     A mine = sums; // a copy in registers: g++ would store sums to the stack with each pack
     for (auto at = std::size_t(lists.begin[block]) * std::size_t(width<V>); at != end; at += std::size_t(width<V>)) {
         std::int32_t const* const later = index + std::min(at + ahead, last);
@@ -215,31 +84,62 @@ template <class V, class I, class Tuple, class Ri, class Ui, class A, class Src>
             for (int f = 0; f < (each_lane ? L::stride : 1); f += 64 / int(sizeof(scalar_t<V>)))
                 __builtin_prefetch(base + std::uint32_t(later[l]) + f);
         const auto rj = gathered<V>(base, index + at, L{});
-        if constexpr (Src::Kept::size == 0)
-            if (!may_meet<I>(interaction, ri, ui, rj, uj)) continue;
-        const auto ij = pair_of<I, V>(interaction, ri, ui, rj, uj);
         constexpr auto terms = std::make_index_sequence<std::tuple_size_v<Tuple>>{};
-        if constexpr (Src::Kept::size > 0) {
-            using Memory = Kept<I::dim, V, typename Src::Kept>;
-            scalar_t<V>* const place = (*source.memory)[cell].data() + at * std::size_t(Memory::L::count);
-            if constexpr (requires { ij.mask; })
-                if (!spate::any(ij.mask)) {
-                    if (source.carry.keep) Memory::forget(place);
-                    continue;
-                }
-            Memory kept(place, V(source.carry.elapsed));
-            apply_all<Src::terms>(all, ri, ui, rj, uj, mine, ij, terms, &kept.record);
-            if (!source.carry.keep) continue;
-            if constexpr (requires { ij.mask; }) kept.put_back(ij.mask, source.carry);
-            else kept.put_back(source.carry);
+        if (!may_meet<I>(interaction, ri, ui, rj, uj)) {
+            memory.skip();
+            continue;
         }
+        const auto ij = pair_of<I, V>(interaction, ri, ui, rj, uj);
+        if constexpr (requires { ij.mask; })
+            if (!spate::any(ij.mask)) { // qualified: xsimd has one too
+                memory.skip();
+                continue;
+            }
+        if constexpr (Src::Kept::size == 0) apply_all<Src::terms>(all, ri, ui, rj, uj, mine, ij, terms);
         else {
-            if constexpr (requires { ij.mask; })
-                if (!spate::any(ij.mask)) continue; // qualified: xsimd has one too
-            apply_all<Src::terms>(all, ri, ui, rj, uj, mine, ij, terms);
+            auto kept = memory.load();
+            apply_all<Src::terms>(all, ri, ui, rj, uj, mine, ij, terms, &kept.record);
+            if constexpr (requires { ij.mask; }) memory.store(kept, bits(ij.mask));
+            else memory.store(kept, (1u << width<V>)-1);
         }
     }
     sums = mine;
+}
+/// What pairs read of both sides, and the records of a species hold.
+template <class I, class Src, class... T, std::size_t... t>
+constexpr auto read_of_records(std::tuple<T...> const*, std::index_sequence<t...>)
+{
+    auto one = []<std::size_t k, class X>(std::integral_constant<std::size_t, k>, X const*) {
+        if constexpr (picked<Src::terms, k>) return reads_j<X>();
+        else return Fields<>{};
+    };
+    return (I::reads | ... | one(std::integral_constant<std::size_t, t>{}, static_cast<T const*>(nullptr))) &
+           Src::L::fields;
+}
+/// Targets that lie one after the other. What their records hold of them is taken from there, where the species meets
+/// itself: neighbours bring these into the cache.
+template <class V, class I, class Tuple, class Target, class P, class Src, class... More>
+[[gnu::always_inline]] inline auto targets_at(P const& particles, std::int32_t first, Src const& source, More const&...)
+{
+    using Recorded = Set<read_of_records<I, Src>(static_cast<Tuple const*>(nullptr),
+                                                 std::make_index_sequence<std::tuple_size_v<Tuple>>{}) &
+                         Target{}>;
+    if constexpr (!Src::itself || !std::same_as<scalar_t<V>, typename P::real> || Recorded::size < 2)
+        return particles.template record_at<V>(Target{}, first);
+    else {
+        using L = typename Src::L;
+        const auto last = std::int32_t(particles.size() - 1);
+        std::int32_t at[std::size_t(width<V>)]; // lanes beyond the last are not stored
+        for (int l = 0; l < width<V>; ++l) at[l] = std::min(first + l, last) * L::stride;
+        const auto record = gathered<V>(source.packed.data.data(), at, L{});
+        Record<P::dim, V, Target> r;
+        for_each(
+            Target{}, [&]<class F>(F f) __attribute__((always_inline)) {
+                if constexpr (Recorded::template contains<F>) r[f] = record[f];
+                else r[f] = particles.template load_at<V>(f, std::size_t(first));
+            });
+        return r;
+    }
 }
 /// Terms that count i with itself, and particle terms that add to the same sums.
 template <Mask terms, class V, class I, class Ri, class Ui, class A, class... T, std::size_t... t>
@@ -286,10 +186,16 @@ template <class V, Mask terms, class Sums, class Target, class I, class Tuple, c
     {
         for (std::size_t block = 0; block < blocks; ++block) {
             std::int32_t const* target = lists.target.data() + block * std::size_t(width<V>);
+            std::int32_t numbers[std::size_t(width<V>)];
+            if (!in_order && lists.in_order) { // a scene may ask for it
+                for (int l = 0; l < width<V>; ++l)
+                    numbers[l] = lists.target_of(block * std::size_t(width<V>) + std::size_t(l));
+                target = numbers;
+            }
             const std::int32_t at_first = first + (in_order ? std::int32_t(block) * width<V> : 0);
             const auto ri = [&]() __attribute__((always_inline))
             {
-                if constexpr (in_order) return particles.template record_at<V>(Target{}, at_first);
+                if constexpr (in_order) return detail::targets_at<V, I, Tuple, Target>(particles, at_first, source...);
                 else return particles.template record_of<V>(Target{}, first, target);
             }
             ();

@@ -675,8 +675,15 @@ public:
             b += x.particles.bytes() + x.start.bytes() + x.bins.bytes() + x.packed.data.capacity() * sizeof(PairT);
         });
         for (auto const& l : lists_) b += l.bytes();
-        for (auto const& of_species : memory_)
-            for (auto const& of_cell : of_species) b += of_cell.capacity() * sizeof(T);
+        std::apply(
+            [&](auto const&... of_species) {
+                auto one = [&](auto const& cells) {
+                    if constexpr (requires { cells.size(); })
+                        for (auto const& of_cell : cells) b += of_cell.bytes();
+                };
+                (one(of_species), ...);
+            },
+            memory_);
         std::apply([&](auto const&... aside) { ((b += aside.bytes()), ...); }, aside_);
         b += skins_.bytes();
         return b;
@@ -727,7 +734,7 @@ public:
     {
         auto now = std::get<std::size_t(s * species_count + q)>(aside_);
         if (have_lists_)
-            now.take(lists<s, q>(), memory_[std::size_t(s * species_count + q)], species<s>().particles,
+            now.take(lists<s, q>(), std::get<std::size_t(s * species_count + q)>(memory_), species<s>().particles,
                      species<s>().bins, species<q>().particles, species<q>().bins, width<PairV>, backend_,
                      foreign<q>());
         return now.pairs();
@@ -890,7 +897,7 @@ private:
             for (auto row = std::size_t(lists.begin[block]); row < std::size_t(lists.begin[block + 1]); ++row)
                 for (std::size_t lane = 0; lane < W; ++lane) {
                     const std::size_t j = std::uint32_t(lists.index[row * W + lane]) / stride;
-                    const std::size_t i = first + std::size_t(lists.target[block * W + lane]);
+                    const std::size_t i = first + std::size_t(lists.target_of(block * W + lane));
                     if (j <= i || j == n) continue;
                     double d2 = 0;
                     for (std::size_t c = 0; j < n && c < std::size_t(dim); ++c) {
@@ -901,7 +908,7 @@ private:
                     const std::size_t of = particle_of(j);
                     const double part = share(i, of) + (j < n ? share(j, i) : 0);
                     if (part != 0)
-                        add_pair_energy(sum, part, cell, row, lane, double_record(p, i), double_record_of(j));
+                        add_pair_energy(sum, part, cell, block, row, lane, double_record(p, i), double_record_of(j));
                 }
         return sum;
     }
@@ -1016,7 +1023,7 @@ private:
                 for (std::size_t lane = 0; lane < W; ++lane) {
                     const std::size_t entry = all.number(lists.index[row * W + lane]);
                     if (entry == n) continue;
-                    const std::size_t i = first + std::size_t(lists.target[b * W + lane]);
+                    const std::size_t i = first + std::size_t(lists.target_of(b * W + lane));
                     const std::size_t j = entry < n ? entry : std::size_t(images.of[entry - n - 1]);
                     Ri ri = record_in_double<Ri>(p, i);
                     Rj rj = record_in_double<Rj>(p, j);
@@ -1025,7 +1032,7 @@ private:
                     if (!ij.mask) continue;
                     typename detail::Kept<dim, double, K>::Seen seen;
                     seen.elapsed = due_;
-                    remembered<K>(seen, memory_[0], cell, row, lane);
+                    remembered<K>(seen, cell, b, row, lane);
                     Record<dim, double, Set<M::template fields<added(terms)>()>> sums;
                     clear(sums);
                     detail::apply_all<terms>(terms_, ri, u, rj, u, sums, ij,
@@ -1033,15 +1040,16 @@ private:
                     f(i, j, ri[position] - rj[position], ij, p.at(mass, i) * sums[acceleration]);
                 }
     }
-    /// What is kept of the pair at a place of the lists.
+    /// What is kept of the pair at a place of the lists of the mobile particles; zero where it does not touch.
     template <class K>
-    static void remembered(auto& to, auto const& memory, std::size_t cell, std::size_t row, std::size_t lane)
+    void remembered(auto& to, std::size_t cell, std::size_t block, std::size_t row, std::size_t lane) const
     {
         if constexpr (K::size > 0) {
             using L = Layout<dim, K>;
-            constexpr int W = width<PairV>;
+            auto const& memory = std::get<0>(memory_)[cell];
+            T const* const values = memory.find(this->template lists<0, 0>().of_cell(cell), block, row, lane);
             const auto value = [&](int k) {
-                return double(memory[cell][PairMemory<T, L::count>::place(row, k, W) + lane]);
+                return values == nullptr ? 0 : double(values[std::size_t(k) * memory.count(memory.set[row])]);
             };
             for_each(K{}, [&]<class F>(F field) {
                 if constexpr (F::rank == 0) to[field] = value(L::template offset<F>);
@@ -1075,8 +1083,8 @@ private:
         return r;
     }
     /// \param part  of the energy of a pair that counts
-    void add_pair_energy(ExactSum& sum, double part, std::size_t cell, std::size_t row, std::size_t lane,
-                         auto const& ri, auto const& rj) const
+    void add_pair_energy(ExactSum& sum, double part, std::size_t cell, std::size_t block, std::size_t row,
+                         std::size_t lane, auto const& ri, auto const& rj) const
     {
         const auto u = mobile().template uniforms<double>();
         const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, u, rj, u);
@@ -1085,13 +1093,13 @@ private:
         using Seen = typename detail::Kept<dim, double, Set<kept<0, 0>()>>::Seen;
         Seen seen;
         seen.elapsed = due_;
-        remembered<Set<kept<0, 0>()>>(seen, memory_[0], cell, row, lane);
+        remembered<Set<kept<0, 0>()>>(seen, cell, block, row, lane);
         detail::each_in(terms_, [&]<class X>(X const& t) {
             if constexpr (requires { t.energy(ij); }) sum.add(part * t.energy(ij));
             else if constexpr (stores_energy<X>) {
                 Record<dim, double, Set<adds<X>()>> sums;
                 clear(sums);
-                detail::apply(t, ri, u, rj, u, sums, ij, &seen); // what it keeps comes along to where the positions are
+                if (due_ != 0) detail::apply(t, ri, u, rj, u, sums, ij, &seen); // it comes along to where positions are
                 detail::with_views<X>(ri, u, rj, u, sums, ij, &seen,
                                       [&](auto const& a, auto const& b) { sum.add(part * t.energy(a, b, ij)); });
             }
@@ -1462,7 +1470,7 @@ private:
                 constexpr int values = kept_values<s(), q()>;
                 if constexpr (values > 0) {
                     auto& aside = std::get<std::size_t(s() * species_count + q())>(aside_);
-                    f(s, q, aside, memory_[std::size_t(s() * species_count + q())]);
+                    f(s, q, aside, std::get<std::size_t(s() * species_count + q())>(memory_));
                 }
             });
         });
@@ -1499,8 +1507,8 @@ private:
         static_assert(!mixed || kept_values<s, q> == 0,
                       "spate: Mixed is for terms that keep nothing of a pair; take Double or Float");
         auto const& x = species<q>();
-        auto& memory = memory_[std::size_t(s * species_count + q)];
-        return Source<terms, Set<kept<s, q>()>, ParticlesOf<q>, std::remove_cvref_t<decltype(x.packed)>>{
+        auto& memory = std::get<std::size_t(s * species_count + q)>(memory_);
+        return Source<terms, Set<kept<s, q>()>, ParticlesOf<q>, std::remove_cvref_t<decltype(x.packed)>, s == q>{
             x.particles, x.packed, lists<s, q>(), s == q, &memory, carry_.value_or(Carry{due_})};
     }
     /// The sets one after the other, a stretch of particles at a time: it is in the cache for the second set.
@@ -1721,9 +1729,10 @@ private:
     template <int... k>
     struct AllMemory<std::integer_sequence<int, k...>> {
         using type = std::tuple<PairMemory<T, kept_values<k / species_count, k % species_count>>...>;
+        using InLists = std::tuple<KeptOfCells<T, kept_values<k / species_count, k % species_count>>...>;
     };
     typename AllMemory<std::make_integer_sequence<int, species_count * species_count>>::type aside_;
-    std::array<std::vector<Array<T>>, std::size_t(species_count* species_count)> memory_; ///< of pairs, by cell
+    typename AllMemory<std::make_integer_sequence<int, species_count * species_count>>::InLists memory_; ///< by cell
     LocalSkins<dim, species_count> skins_;
     [[no_unique_address]] Parts parts_;
     double wrap_after_ = std::numeric_limits<double>::infinity(); ///< way after which positions are wrapped anew [m]
