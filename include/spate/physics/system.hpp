@@ -1398,7 +1398,7 @@ private:
     {
         return q < species_count && (allowed >> q & 1) != 0 ? reading(terms, s, q) : 0;
     }
-    /// f(task of a cell)
+    /// Runs the task of each cell; on ranks f(task) does.
     template <int s, Mask terms, Mask allowed>
     void with_task(auto const& f)
     {
@@ -1409,10 +1409,13 @@ private:
             using Sums = decltype(M::template fields<added(terms) | written(terms)>());
             using Target = Set<in_pairs(M::template fields<read_of_target(terms, s)>())>;
             constexpr Mask itself = (allowed >> s) & 1 ? terms : Mask(0);
-            f([&](std::size_t cell) {
+            auto one = [&](std::size_t cell) {
                 sweep_cell<PairV, itself, Sums, Target>(physics_.interaction, terms_, x.particles, x.bins, cell,
                                                         source...);
-            });
+            };
+            // Alone at once: so g++ takes a scene's constants along into the sweep.
+            if constexpr (alone) backend_.for_each(x.bins.cells(), one);
+            else f(one);
         };
         if constexpr (from_0 != 0 && from_1 != 0) with(source<s, 0, from_0>(), source<s, 1, from_1>());
         else if constexpr (from_0 != 0) with(source<s, 0, from_0>());
@@ -1425,8 +1428,7 @@ private:
     {
         with_task<s, terms, allowed>([&](auto const& one) {
             const std::size_t cells = species<s>().bins.cells();
-            if constexpr (alone) backend_.for_each(cells, one);
-            else {
+            if constexpr (!alone) {
                 constexpr unsigned sources =
                     (read_from<s, terms, allowed>(0) != 0 ? 1u : 0u) | (read_from<s, terms, allowed>(1) != 0 ? 2u : 0u);
                 if constexpr (ahead.terms == 0) parts_.run(s, cells, sources, one, backend_, rest);
