@@ -185,12 +185,15 @@ template <class V, Mask terms, class Sums, class Target, class I, class Tuple, c
     auto run = [&]<bool in_order>(std::bool_constant<in_order>) __attribute__((always_inline))
     {
         for (std::size_t block = 0; block < blocks; ++block) {
-            std::int32_t const* target = lists.target.data() + block * std::size_t(width<V>);
+            std::int32_t const* target = nullptr;
             std::int32_t numbers[std::size_t(width<V>)];
-            if (!in_order && lists.in_order) { // a scene may ask for it
-                for (int l = 0; l < width<V>; ++l)
-                    numbers[l] = lists.target_of(block * std::size_t(width<V>) + std::size_t(l));
-                target = numbers;
+            if constexpr (!in_order) {
+                if (lists.in_order) { // a scene may ask for it
+                    for (int l = 0; l < width<V>; ++l)
+                        numbers[l] = lists.target_of(block * std::size_t(width<V>) + std::size_t(l));
+                    target = numbers;
+                }
+                else target = lists.target.data() + block * std::size_t(width<V>);
             }
             const std::int32_t at_first = first + (in_order ? std::int32_t(block) * width<V> : 0);
             const auto ri = [&]() __attribute__((always_inline))
