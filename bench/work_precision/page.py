@@ -9,7 +9,7 @@ import textwrap
 import diagram
 import ladder
 from diagram import plt
-from names import DAM, SHIFTED
+from names import CORRECTED, DAM, SHIFTED
 
 
 def short(row):
@@ -35,7 +35,8 @@ def w1(rows):
     named = lambda r: f"{short(r)}, {r['formulation']}, {r['precision']}"
     colours = {}
     tone = lambda r: colours.setdefault(r["formulation"], ("#762a83", "#000000", "#999999")[len(colours) % 3])
-    look = lambda r: diagram.look_of(r) | ({} if r["formulation"] == SHIFTED else {"color": tone(r)})
+    own = lambda r: {} if r["formulation"] == SHIFTED else {"ls": ":"} if r["formulation"] == CORRECTED else {"color": tone(r)}
+    look = lambda r: diagram.look_of(r) | own(r)
     diagram.panel(axes[1, 1], base + others, "L1_speed", look=look, name=named, title="formulations and float")
     diagram.legend(axes[1, 1])
     dt = [r for r in rows if r["ladder"] == "dt"]
