@@ -197,4 +197,31 @@ TEST(Selection, LeavesOutWhatLiesExactlyAtTheReach)
     EXPECT_EQ(within, 0);
 }
 
+/// Every set of lanes: a mask and its bits, and values side by side that come to their lanes and go back, no others touched.
+template <class V>
+class LanesOf : public ::testing::Test {};
+using WithLanes = ::testing::Types<Scalar<float>, Pack<double>, Pack<float>>;
+TYPED_TEST_SUITE(LanesOf, WithLanes);
+
+TYPED_TEST(LanesOf, ASetComeAndGoSideBySide)
+{
+    using V = TypeParam;
+    using T = scalar_t<V>;
+    constexpr int W = width<V>;
+    for (unsigned set = 0; set<1u << W; set += W> 8 ? 37 : 1) {
+        T side[std::size_t(2 * W)], lane[std::size_t(W)], chosen[std::size_t(W)];
+        int n = 0;
+        for (int k = 0; k < 2 * W; ++k) side[k] = T(k + 1);
+        for (int k = 0; k < W; ++k) chosen[k] = (set >> k & 1) != 0 ? T(1) : T(-1);
+        EXPECT_EQ(bits(load<V>(chosen) > V(0)), set);
+        const V v = SomeLanes<V>(set).load(side);
+        store(lane, v);
+        for (int k = 0; k < W; ++k) EXPECT_EQ(lane[k], (set >> k & 1) != 0 ? T(++n) : T(0)) << set << ' ' << k;
+        T back[std::size_t(2 * W)];
+        for (auto& b : back) b = T(-7);
+        SomeLanes<V>(set).store(back, v);
+        for (int k = 0; k < 2 * W; ++k) EXPECT_EQ(back[k], k < n ? T(k + 1) : T(-7)) << set << ' ' << k;
+    }
+}
+
 } // namespace

@@ -44,6 +44,7 @@ class BlockMemory {
     using T = scalar_t<V>;
     static constexpr auto values = std::size_t(Layout<Dim, S>::count);
     using Pairs = KeptPairs<T, int(values)>;
+    static_assert(std::size_t(width<V>) <= 8 * sizeof(typename Pairs::Set), "spate: a set has a bit for each lane");
 
 public:
     /// \param first  row of the lists
