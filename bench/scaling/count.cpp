@@ -85,8 +85,8 @@ struct Row {
     std::int64_t reach = 0,
                  patches =
                      0; ///< particles that the tasks of an evaluation read; patches of water in messages that go out
-    /// For nodes of 12, of 36: pairs of cells of water that see no marker and wait for the water of so many ranks of other
-    /// nodes, the last: or more; of those that see no marker of other nodes.
+    /// For nodes of 12, of 36: pairs of cells of water that see no marker of others and wait, they or the walls that they see,
+    /// for the water of so many ranks of other nodes, the last: or more; of those that see no marker of other nodes.
     std::array<std::array<std::int64_t, 6>, 2> free{};
     std::array<std::int64_t, 2> late{};
     std::array<std::int64_t, 2> walls{}; ///< pairs of wall cells that see no water of other nodes
@@ -250,22 +250,26 @@ private:
                     reach += in_reach(cell, bins_[std::size_t(q)], parts_.halo(q).bins(), grid_);
                 reach_ += reach;
                 bool waits = false;
-                std::array<std::array<std::set<int>, 2>, 2>
-                    far; // ranks of other nodes that are waited for: by source, by node
+                Far far,
+                    of_walls; // ranks of other nodes that are waited for: by this task, by those of walls that it sees
                 each_cell_around(cell, grid_, [&](Index<3> const& c) {
                     for (std::size_t q = 0; q < 2 - std::size_t(s); ++q) {
                         if (parts_.halo(int(q)).bins().find(c) < 0) continue;
                         waits = true;
-                        const int owner = parts_.owner(c);
-                        for (std::size_t node = 0; node < 2; ++node)
-                            if (owner / a_node[node] != ranks_.rank() / a_node[node]) far[q][node].insert(owner);
+                        wait_for(c, far[q]);
                     }
+                    if (s == 1 || bins_[1].find(c) < 0) return;
+                    each_cell_around(c, grid_, [&](Index<3> const& water) {
+                        if (parts_.halo(0).bins().find(water) >= 0) wait_for(water, of_walls[0]);
+                    });
                 });
+                const bool sees_foreign = sees_foreign_marker(cell);
                 for (std::size_t node = 0; node < 2; ++node) {
-                    const std::size_t ranks = far[0][node].size();
-                    if (s == 1 && ranks == 0) walls_[node] += n;
-                    if (s == 0 && !sees_marker) free_[node][std::min(ranks, free_[node].size() - 1)] += n;
+                    if (s == 1 && far[0][node].empty()) walls_[node] += n;
                     if (s == 0 && far[1][node].empty()) late_[node] += n;
+                    if (s == 1 || sees_foreign) continue;
+                    if (sees_marker) far[0][node].merge(of_walls[0][node]);
+                    free_[node][std::min(far[0][node].size(), free_[node].size() - 1)] += n;
                 }
                 const std::int64_t here = bins_[std::size_t(s)].end(k) - bins_[std::size_t(s)].begin(k);
                 // The time of its task, and what is added to it, in pairs: as System::cut_by_cost does.
@@ -275,6 +279,19 @@ private:
                 if (!waits) inner_ += n;
             }
         return all;
+    }
+    using Far = std::array<std::array<std::set<int>, 2>, 2>; // by source, by node
+    void wait_for(Index<3> const& cell, std::array<std::set<int>, 2>& far) const
+    {
+        const int owner = parts_.owner(cell);
+        for (std::size_t node = 0; node < 2; ++node)
+            if (owner / a_node[node] != ranks_.rank() / a_node[node]) far[node].insert(owner);
+    }
+    bool sees_foreign_marker(Index<3> const& cell) const
+    {
+        bool any = false;
+        each_cell_around(cell, grid_, [&](Index<3> const& c) { any = any || parts_.halo(1).bins().find(c) >= 0; });
+        return any;
     }
     /// \param sees  set if lists of targets in the cell may hold any of the source
     std::int64_t pairs_of(int s, int q, std::size_t k, bool& sees)

@@ -164,5 +164,35 @@ TEST(Overlap, WaterRunsWhileWallsWait)
             EXPECT_EQ(sim.state_hash(), hash);
         });
 }
+// Where all water sees a wall, so that all waits for markers that wait for water: cells whose walls are our own, and have all that
+// they need, run as soon as these are made.
+TEST(Overlap, WaterRunsBetweenWallsOfItsOwn)
+{
+    auto sheet = [](auto backend) {
+        constexpr double dx = 0.02;
+        auto water = wcsph(CubicSpline<2>{.h = 1.2 * dx}, Tait{.rho0 = 1000, .c0 = 30}, Continuity<2>{},
+                           PressureForce<2>{}, ArtificialViscosity{.alpha = 0.1}, Gravity<2>{{0, -9.81}});
+        Simulation sim(water, RungeKutta2{}, Bce(Box<2>{{}, {{4, 1}}}, dx, Adami{}, open(top)), backend);
+        sim.fill(Box<2>{{}, {{4, 2 * dx}}}, dx, hydrostatic);
+        sim.run({.steps = 20, .cfl = 0.2});
+        return sim;
+    };
+    const auto hash = sheet(Serial{}).state_hash();
+    for (const Comes comes : {Comes::at_once, Comes::soon, Comes::late})
+        VirtualRanks(3).run([&](auto rank) {
+            Log log;
+            const auto sim = sheet(
+                OnRank{Logged<decltype(rank)>{rank, &log, comes}, LoggedTasks{&log}, 1, Balance{.by_pairs = true}});
+            auto const& system = sim.system();
+            const auto walls = std::int64_t(system.template species<1>().bins.cells());
+            const auto cells = system.template species<0>().bins.cells();
+            for (std::size_t k = 0; k < cells; ++k)
+                EXPECT_FALSE((system.template lists<0, 1>().of_cell(k).index.empty())) << k; // all see a wall
+            if (comes == Comes::late) {
+                EXPECT_GT(log.before_water, walls); // tasks of walls alone would be fewer
+            }
+            EXPECT_EQ(sim.state_hash(), hash);
+        });
+}
 
 } // namespace

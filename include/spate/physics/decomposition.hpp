@@ -126,6 +126,22 @@ public:
             });
         cost_[std::size_t(s)].assign(at.cells(), 0);
     }
+    /// What the tasks of the cells of one target make is read by which cells of another; after look_around.
+    void look_inside(Binning<Dim> const& made, Binning<Dim> const& at, Grid<Dim> const& grid)
+    {
+        reads_.assign(made.cells(), {});
+        makers_.assign(at.cells(), 0);
+        for (std::size_t k = 0; k < at.cells(); ++k) {
+            auto one = [&](Index<Dim> const& cell) {
+                const auto there = made.find(cell);
+                if (there >= 0) reads_[std::size_t(there)].push_back(std::int32_t(k)), ++makers_[k];
+            };
+            one(at.cell(k));
+            each_cell_around(at.cell(k), grid, one);
+        }
+        for (auto const& cells : waiting_[1])
+            for (auto const k : cells) makers_[std::size_t(k)] = never;
+    }
 
     // ---- values on their way
     /// Sends values of those particles of a species that others have asked for; `put(i, to)` writes those of particle i,
@@ -157,13 +173,13 @@ public:
         for (int s = 0; s < Species; ++s) finish(s);
     }
     /// Tasks of a later sweep that may run in an earlier one: cells of a target that read what is in the air for that one
-    /// too, and nothing that has still to be made.
-    template <class May, class Task>
+    /// too, and of what its tasks make no more than what they make here.
+    template <class Free, class Task>
     struct Ahead {
         int target;
         std::size_t cells;
         unsigned sources;
-        May const& may;
+        Free const& free; ///< of a cell: whether it reads nothing of what they make
         Task const& task;
     };
     struct Nobody {};
@@ -179,7 +195,9 @@ public:
         unsigned all = sources;
         if constexpr (any_ahead) {
             ran_.assign(then.cells, 0);
-            later = due(then.target, then.cells, then.sources, then.may);
+            auto made = [&](std::size_t k) { return then.free(k) ? 0 : makers_[k]; };
+            later = due(
+                then.target, then.cells, then.sources, [&](std::size_t k) { return made(k) != never; }, made);
             all |= then.sources;
         }
         auto is_missing = [&] {
@@ -216,6 +234,10 @@ public:
             if (!mine.idle()) {
                 const auto some_cells = mine.next(waiting ? some : cells);
                 compute(s, some_cells, task, backend, is_missing());
+                if constexpr (any_ahead)
+                    for (auto const k : some_cells)
+                        for (auto const reader : reads_[std::size_t(k)])
+                            if (!then.free(std::size_t(reader))) later.one_less(reader);
             }
             else if constexpr (any_ahead) {
                 const auto some_cells = later.next(some);
@@ -286,8 +308,11 @@ private:
         [[nodiscard]] bool idle() const { return ready.empty() && done == inner.size(); }
         void arrived(std::vector<std::int32_t> const& cells)
         {
-            for (auto const k : cells)
-                if (missing[std::size_t(k)] > 0 && --missing[std::size_t(k)] == 0) ready.push_back(k);
+            for (auto const k : cells) one_less(k);
+        }
+        void one_less(std::int32_t k)
+        {
+            if (missing[std::size_t(k)] > 0 && --missing[std::size_t(k)] == 0) ready.push_back(k);
         }
         /// The next cells to run: those that others have waited for, else at most so many more.
         [[nodiscard]] std::vector<std::int32_t> next(std::size_t some)
@@ -303,8 +328,12 @@ private:
             return cells;
         }
     };
-    /// \param is_one  of a cell: whether it is one of the tasks
-    Due due(int s, std::size_t cells, unsigned sources, auto const& is_one) const
+    struct Nothing {
+        std::int32_t operator()(std::size_t) const { return 0; }
+    };
+    /// \param is_one  of a cell: whether it is one of the tasks    \param more  of a cell: what else it waits for
+    template <class More = Nothing>
+    Due due(int s, std::size_t cells, unsigned sources, auto const& is_one, More const& more = {}) const
     {
         Due d;
         d.missing.assign(cells, 0);
@@ -321,6 +350,7 @@ private:
                 continue;
             }
             ++d.left;
+            d.missing[k] += more(k);
             if (d.missing[k] == 0) d.inner.push_back(std::int32_t(k));
         }
         return d;
@@ -411,6 +441,10 @@ private:
     std::array<std::size_t, species> owned_{};
     std::array<std::vector<std::vector<std::int32_t>>, species * species> waiting_;
     std::array<Air, species> air_;
+    static constexpr std::int32_t never = std::numeric_limits<std::int32_t>::max();
+    std::vector<std::vector<std::int32_t>>
+        reads_;                        ///< by cell of the markers: cells of the mobile particles that see them
+    std::vector<std::int32_t> makers_; ///< of those cells: how many of these; never: markers of others too
     std::vector<char> ran_; ///< cells of the target whose sweep comes next: whether they have run in the last one
     std::array<std::vector<std::int64_t>, species> cost_;
     RankReport report_;

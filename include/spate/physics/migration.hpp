@@ -219,6 +219,7 @@ void System<P, B, Workers, Precision>::meet_others()
     });
     each_species(
         [&](auto s) { each_species([&](auto q) { parts_.look_around(s(), q(), species<s()>().bins, grid_); }); });
+    if constexpr (species_count > 1) parts_.look_inside(species<1>().bins, species<0>().bins, grid_);
 }
 
 template <class P, class B, class Workers, class Precision>

@@ -1185,13 +1185,14 @@ private:
                       "spate: terms wait for each other's fields; let one of them write a field of its own");
         [&]<std::size_t... k>(std::index_sequence<k...>)
         {
-            (stage<plan.stage[k], ahead_in(plan, int(k)), is_rest(plan, int(k))>(), ...);
+            (stage<plan.stage[k], ahead_in(plan, int(k)), is_rest(plan, int(k)), made_by_cells(plan, int(k))>(), ...);
         }
         (std::make_index_sequence<std::size_t(plan.count)>{});
         if constexpr (!alone) parts_.finish(); // what no cell here has waited for
     }
     /// Ranks that wait for others in a sweep of the markers run ahead: cells of the next sweep of the mobile particles that
-    /// see no marker, if between the two nothing but markers changes.
+    /// see no marker of others, if between the two nothing but markers changes. What they see of our own is made cell by
+    /// cell: each task of the sweep goes on with the passes and the packing in between.
     static constexpr int next_sweep(auto const& plan, int k)
     {
         if (alone || plan.stage[std::size_t(k)].action != Action::sweep || plan.stage[std::size_t(k)].species != 1)
@@ -1203,23 +1204,59 @@ private:
         }
         return -1;
     }
-    static constexpr Stage ahead_in(auto const& plan, int k)
+    struct Ahead {
+        std::array<Stage, 4> between{};
+        int count = 0;
+        Stage sweep{}; ///< none of whose terms is none
+    };
+    static constexpr Ahead ahead_in(auto const& plan, int k)
     {
+        Ahead a;
         const int n = next_sweep(plan, k);
-        return n < 0 ? Stage{} : plan.stage[std::size_t(n)];
+        if (n < 0 || n - k - 1 > int(a.between.size())) return a;
+        a.sweep = plan.stage[std::size_t(n)];
+        for (int m = k + 1; m < n; ++m) a.between[std::size_t(a.count++)] = plan.stage[std::size_t(m)];
+        return a;
     }
     static constexpr bool is_rest(auto const& plan, int k)
     {
         for (int n = 0; n < k; ++n)
-            if (next_sweep(plan, n) == k) return true;
+            if (ahead_in(plan, n).sweep.terms != 0 && next_sweep(plan, n) == k) return true;
         return false;
     }
-    template <Stage st, Stage ahead, bool rest>
+    static constexpr bool made_by_cells(auto const& plan, int k)
+    {
+        for (int n = 0; n < k; ++n)
+            if (ahead_in(plan, n).sweep.terms != 0 && k < next_sweep(plan, n)) return true;
+        return false;
+    }
+    /// \tparam rest  some cells have run ahead    \tparam made  the tasks of the sweep before have done it
+    template <Stage st, Ahead ahead, bool rest, bool made>
     void stage()
     {
-        if constexpr (st.action == Action::pass) pass<st.species, st.terms, st.fields>();
-        else if constexpr (st.action == Action::pack) pack<st.species, st.fields>();
-        else sweep<st.species, st.terms, ~Mask(0), ahead, rest>();
+        if constexpr (st.action == Action::sweep) sweep<st.species, st.terms, ~Mask(0), ahead, rest>();
+        else if constexpr (st.action == Action::pack) pack<st.species, st.fields, made>();
+        else if constexpr (!made) pass<st.species, st.terms, st.fields>();
+    }
+    /// The same for the particles of one cell.
+    template <Stage st>
+    void stage_of(std::size_t cell)
+    {
+        auto const& bins = species<st.species>().bins;
+        const auto first = std::size_t(bins.begin(cell)), last = std::size_t(bins.end(cell));
+        if constexpr (st.action == Action::pack) {
+            pack_range<st.species, st.fields>(first, last);
+            auto const& images = bins.images();
+            if (!images.of.empty())
+                pack_images<st.species>(std::size_t(images.first[first]), std::size_t(images.first[last]));
+        }
+        else { // whole vectors belong to one cell; tasks of two must not write to the same
+            constexpr auto W = std::size_t(width<V>);
+            std::size_t i = first;
+            for (; i < last && i % W != 0; ++i) pass_at<T, st.species, st.terms, st.fields>(i);
+            for (; i + W <= last; i += W) pass_at<V, st.species, st.terms, st.fields>(i);
+            for (; i < last; ++i) pass_at<T, st.species, st.terms, st.fields>(i);
+        }
     }
     /// f(first, last) over stretches of the padded columns of a species.
     template <int s>
@@ -1235,21 +1272,25 @@ private:
     void pass()
     {
         stretches<s>([&](std::size_t first, std::size_t last) __attribute__((flatten)) {
-            auto& p = species<s>().particles;
-            for (std::size_t i = first; i < last; i += std::size_t(width<V>)) {
-                for_each(M::template fields<cleared>(), [&](auto f) {
-                    using X = Value<decltype(f), dim, V>;
-                    X zero;
-                    if constexpr (decltype(f)::rank == 0) zero = V(0);
-                    else
-                        for (int c = 0; c < components<decltype(f), dim>; ++c) zero[c] = V(0);
-                    p.template store_at<V>(f, i, zero);
-                });
-                detail_pass<terms>(p, i, std::make_index_sequence<std::size_t(M::terms)>{});
-            }
+            for (std::size_t i = first; i < last; i += std::size_t(width<V>)) pass_at<V, s, terms, cleared>(i);
         });
     }
-    template <Mask terms, std::size_t... t>
+    /// \tparam W  of one particle or of as many as a pack holds
+    template <class W, int s, Mask terms, Mask cleared>
+    [[gnu::always_inline]] void pass_at(std::size_t i)
+    {
+        auto& p = species<s>().particles;
+        for_each(M::template fields<cleared>(), [&](auto f) {
+            using X = Value<decltype(f), dim, W>;
+            X zero;
+            if constexpr (decltype(f)::rank == 0) zero = W(0);
+            else
+                for (int c = 0; c < components<decltype(f), dim>; ++c) zero[c] = W(0);
+            p.template store_at<W>(f, i, zero);
+        });
+        detail_pass<W, terms>(p, i, std::make_index_sequence<std::size_t(M::terms)>{});
+    }
+    template <class W, Mask terms, std::size_t... t>
     [[gnu::always_inline]] void detail_pass(auto& p, std::size_t i, std::index_sequence<t...>) const
     {
         auto one = [&]<std::size_t k>(std::integral_constant<std::size_t, k>) __attribute__((always_inline))
@@ -1257,7 +1298,7 @@ private:
             if constexpr (((terms >> k) & 1) != 0) {
                 auto const& term = std::get<k>(terms_);
                 using Q = std::remove_cvref_t<decltype(p)>;
-                ParticleView<V, std::remove_cvref_t<decltype(term)>, Q> view{p, i};
+                ParticleView<W, std::remove_cvref_t<decltype(term)>, Q> view{p, i};
                 term(view);
             }
         };
@@ -1282,53 +1323,77 @@ private:
     {
         for (std::size_t i = first; i < last; ++i) to[2 * i] = x[i], to[2 * i + 1] = y[i];
     }
-    /// Copies fields of a species into its records; then the sentinel and the images.
-    template <int s, Mask copied>
+    /// Copies fields of a species into its records and those of its images, and sends what others wait for.
+    /// \tparam made  the records of our own and of their images are there
+    template <int s, Mask copied, bool made = false>
     void pack()
     {
         auto& x = species<s>();
+        const std::size_t images = x.bins.images().of.size();
+        if constexpr (!made) {
+            make_room<s>();
+            stretches<s>([&](std::size_t first, std::size_t last) { pack_range<s, copied>(first, last); });
+        }
+        if constexpr (!alone) send_records<s, copied>();
+        if (made || images == 0) return;
+        backend_.for_each((images + task - 1) / task,
+                          [&](std::size_t k) { pack_images<s>(k * task, std::min(images, (k + 1) * task)); });
+    }
+    /// Room for records of a species, of its images and of what others own; and the sentinel, any record but that it is
+    /// beyond every range.
+    template <int s>
+    void make_room()
+    {
+        auto& x = species<s>();
         using L = typename std::remove_cvref_t<decltype(x.packed)>::L;
-        auto const& images = x.bins.images();
+        constexpr auto stride = std::size_t(L::stride), at = std::size_t(L::template offset<Position>);
         const std::size_t n = x.particles.size();
-        std::size_t records = n + 1 + images.of.size();
+        std::size_t records = n + 1 + x.bins.images().of.size();
         if constexpr (!alone) parts_.finish(s), records += parts_.foreign(s).records();
+        if (x.packed.data.size() != records * stride) x.packed.data.assign(records * stride, PairT(1));
+        PairT* const sentinel = x.packed.data.data() + n * stride;
+        std::fill_n(sentinel, stride, PairT(1));
+        std::fill_n(sentinel + at, std::size_t(dim), x.packed.far);
+    }
+    template <int s, Mask copied>
+    void pack_range(std::size_t first, std::size_t end)
+    {
+        auto& x = species<s>();
+        using L = typename std::remove_cvref_t<decltype(x.packed)>::L;
         constexpr auto stride = std::size_t(L::stride);
         constexpr bool one_vector =
             std::same_as<decltype(M::template fields<copied>()), Fields<Position>> && dim == 2 && !mixed;
-        if (x.packed.data.size() != records * stride) x.packed.data.assign(records * stride, PairT(1));
         PairT* const data = x.packed.data.data();
-        stretches<s>([&](std::size_t first, std::size_t end) {
-            constexpr std::size_t in_cache = 256; // records that stay in the first-level cache over all their fields
-            for (std::size_t last; first < end; first = last) {
-                last = std::min(end, first + in_cache);
-                if constexpr (stride == 2 && one_vector) {
-                    auto const& column = x.particles.column(position);
-                    pack_two(column[0].data(), column[1].data(), data, first, last);
-                    continue;
+        constexpr std::size_t in_cache = 256; // records that stay in the first-level cache over all their fields
+        for (std::size_t last; first < end; first = last) {
+            last = std::min(end, first + in_cache);
+            if constexpr (stride == 2 && one_vector) {
+                auto const& column = x.particles.column(position);
+                pack_two(column[0].data(), column[1].data(), data, first, last);
+                continue;
+            }
+            for_each(Set<with_tail<copied>()>{}, [&]<class F>(F f) {
+                for (int c = 0; c < components<F, dim>; ++c) {
+                    T const* from = x.particles.source_of(f)[std::size_t(c)].data();
+                    using Kind = std::conditional_t<std::same_as<F, PositionTail>, F, Position>;
+                    pack_column<stride, Kind>(from, data + std::size_t(L::template offset<F> + c), first, last);
                 }
-                for_each(Set<with_tail<copied>()>{}, [&]<class F>(F f) {
-                    for (int c = 0; c < components<F, dim>; ++c) {
-                        T const* from = x.particles.source_of(f)[std::size_t(c)].data();
-                        using Kind = std::conditional_t<std::same_as<F, PositionTail>, F, Position>;
-                        pack_column<stride, Kind>(from, data + std::size_t(L::template offset<F> + c), first, last);
-                    }
-                });
-            }
-        });
-        constexpr auto at = std::size_t(L::template offset<Position>);
-        for (std::size_t f = 0; f < stride && n > 0; ++f) data[n * stride + f] = data[f];
-        for (std::size_t c = 0; c < std::size_t(dim); ++c)
-            data[n * stride + at + c] = x.packed.far; // beyond every range
-        if constexpr (!alone) send_records<s, copied>();
-        if (images.of.empty()) return;
-        backend_.for_each((images.of.size() + task - 1) / task, [&](std::size_t k) {
-            for (std::size_t g = k * task, end = std::min(images.of.size(), (k + 1) * task); g < end; ++g) {
-                PairT* const to = data + (n + 1 + g) * stride;
-                std::copy_n(data + std::size_t(images.of[g]) * stride, stride, to);
-                const Vec<dim, double> shift = shift_of(images.code[g], grid_);
-                move_record<L>(to, shift);
-            }
-        });
+            });
+        }
+    }
+    template <int s>
+    void pack_images(std::size_t first, std::size_t last)
+    {
+        auto& x = species<s>();
+        using L = typename std::remove_cvref_t<decltype(x.packed)>::L;
+        constexpr auto stride = std::size_t(L::stride);
+        auto const& images = x.bins.images();
+        PairT* const data = x.packed.data.data();
+        for (std::size_t g = first; g < last; ++g) {
+            PairT* const to = data + (x.particles.size() + 1 + g) * stride;
+            std::copy_n(data + std::size_t(images.of[g]) * stride, stride, to);
+            move_record<L>(to, shift_of(images.code[g], grid_));
+        }
     }
     /// A record of an image lies elsewhere.
     template <class L>
@@ -1422,8 +1487,8 @@ private:
         else if constexpr (from_1 != 0) with(source<s, 1, from_1>());
         else with();
     }
-    /// \tparam ahead  a later sweep of the mobile particles, none of whose terms is none; \tparam rest  some have run ahead
-    template <int s, Mask terms, Mask allowed, Stage ahead = Stage{}, bool rest = false>
+    /// \tparam ahead  a later sweep of the mobile particles    \tparam rest  some have run ahead
+    template <int s, Mask terms, Mask allowed, Ahead ahead = Ahead{}, bool rest = false>
     void sweep()
     {
         with_task<s, terms, allowed>([&](auto const& one) {
@@ -1431,19 +1496,34 @@ private:
             if constexpr (!alone) {
                 constexpr unsigned sources =
                     (read_from<s, terms, allowed>(0) != 0 ? 1u : 0u) | (read_from<s, terms, allowed>(1) != 0 ? 2u : 0u);
-                if constexpr (ahead.terms == 0) parts_.run(s, cells, sources, one, backend_, rest);
-                else
-                    with_task<0, ahead.terms, ~Mask(0)>([&](auto const& later) {
+                if constexpr (ahead.sweep.terms == 0) parts_.run(s, cells, sources, one, backend_, rest);
+                else {
+                    constexpr bool sees_walls = read_from<0, ahead.sweep.terms, ~Mask(0)>(1) != 0;
+                    constexpr auto each = std::make_index_sequence<std::size_t(ahead.count)>{};
+                    [&]<std::size_t... k>(std::index_sequence<k...>) { (room_for<ahead.between[k]>(), ...); }
+                    (each);
+                    auto one_and_on = [&](std::size_t cell) {
+                        one(cell);
+                        [&]<std::size_t... k>(std::index_sequence<k...>) { (stage_of<ahead.between[k]>(cell), ...); }
+                        (each);
+                    };
+                    with_task<0, ahead.sweep.terms, ~Mask(0)>([&](auto const& later) {
                         auto sees_none = [&](std::size_t cell) {
-                            if constexpr (read_from<0, ahead.terms, ~Mask(0)>(1) == 0) return true;
-                            else return lists<0, 1>().of_cell(cell).index.empty();
+                            if constexpr (sees_walls) return lists<0, 1>().of_cell(cell).index.empty();
+                            else return true;
                         };
                         const typename Parts::template Ahead<decltype(sees_none), std::remove_cvref_t<decltype(later)>>
                             then{0, species<0>().bins.cells(), 1u, sees_none, later};
-                        parts_.run(s, cells, sources, one, backend_, false, then);
+                        parts_.run(s, cells, sources, one_and_on, backend_, false, then);
                     });
+                }
             }
         });
+    }
+    template <Stage st>
+    void room_for()
+    {
+        if constexpr (st.action == Action::pack) make_room<st.species>();
     }
 public:
     /// What the terms of s <- q keep of a pair.
