@@ -162,6 +162,8 @@ def kernel(run):
 def cell_size(run):
     rows = []
     for name, b in run.all.items():
+        if not name.startswith("cell_size/"):
+            continue
         p = {k: int(v) for k, v in re.findall(r"(\w+):(\d+)", name)}
         rows.append({**p, "skin": p["skin_permille"] / 1000, "h": p["h_tenths"] / 10, **b})
     values = lambda key: sorted({r[key] for r in rows})
