@@ -334,8 +334,8 @@ there.
 {foretold}
 
 Where a count is darker than foretold, its slowest rank is of a sort that fewer ranks do not have: of a node in a sheet of water on a
-wall, as thick as a cell or two. All its cells see the wall, so that they wait for walls that wait for water, and its node has a large
-surface: {worst_wait} of the step of {worst_ranks} ranks is that wait, {mean_wait} on the mean of all ranks.
+wall, as thick as a cell or two. All its cells see the wall; those at the rank's edge wait for walls that wait for water, and its node
+has a large surface: {worst_wait} of the step of {worst_ranks} ranks is that wait, {mean_wait} on the mean of all ranks.
 
 Where a step goes, MODELLED on the first network:
 
@@ -410,7 +410,7 @@ lists are stale; nothing hides them.
 
 (3): W = L + 2 o + G far, far the bytes of water that all ranks of a node send to other nodes, through one card, ranks numbered along
 the curve. They come evenly over W: a cell that waits for j ranks of other nodes can run at W j / (j + 1) on average. Meanwhile run cells
-of walls that wait for no other node, then cells of water that see no wall. At W a rank that sees walls has its own, and they fly,
+of walls that wait for no other node, then cells of water that see no wall of another rank, j being of the walls that they see too. At W a rank that sees walls has its own, and they fly,
 hidden by the cells of water that wait for no walls of another node and have not run yet. One that sees none is done when the last
 message has come and its share of cells has run. All-reduces of P values go through the card once there and back, and through the memory
 of a node for each doubling of its ranks.
