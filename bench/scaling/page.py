@@ -409,10 +409,10 @@ pair. near: bytes that a rank sends within its node, and copies itself. x: excha
 lists are stale; nothing hides them.
 
 (3): W = L + 2 o + G far, far the bytes of water that all ranks of a node send to other nodes, through one card, ranks numbered along
-the curve. They come evenly over W: a cell that waits for j ranks of other nodes can run at W j / (j + 1) on average. Meanwhile run cells
-of walls that wait for no other node, then cells of water that see no wall of another rank, j being of the walls that they see too. At W a rank that sees walls has its own, and they fly,
-hidden by the cells of water that wait for no walls of another node and have not run yet. One that sees none is done when the last
-message has come and its share of cells has run. All-reduces of P values go through the card once there and back, and through the memory
+the curve. They come evenly over W: a cell that waits for j ranks of other nodes, itself or by walls that it sees, can run at
+W j / (j + 1) on average. Meanwhile run cells of walls that wait for no other node, then cells of water that see no wall of another
+rank. At W a rank that sees walls has its own, and they fly, hidden by the cells of water that wait for no walls of another node and
+have not run yet. One that sees none is done when the last message has come and its share of cells has run. All-reduces of P values go through the card once there and back, and through the memory
 of a node for each doubling of its ranks.
 
 {constants}
