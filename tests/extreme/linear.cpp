@@ -11,7 +11,7 @@ TEST(Linear1d, SoundGrowsAndIsBoundedAsTheoryHasIt)
 }
 TEST(Linear1d, ViscosityIsBoundedAsTheoryHasIt)
 {
-    all_rows<1>([](double h) { return viscosity<1>(h); });
+    all_rows<1>([](double h) { return linear::viscosity<1>(h); });
 }
 TEST(Linear2d, SoundGrowsAndIsBoundedAsTheoryHasIt)
 {
@@ -19,7 +19,7 @@ TEST(Linear2d, SoundGrowsAndIsBoundedAsTheoryHasIt)
 }
 TEST(Linear2d, ViscosityIsBoundedAsTheoryHasIt)
 {
-    all_rows<2>([](double h) { return viscosity<2>(h); }, true);
+    all_rows<2>([](double h) { return linear::viscosity<2>(h); }, true);
 }
 
 // In float a wave is followed over one and a half decades; 1e-3 of it is 1e4 roundings of the density.

@@ -11,7 +11,7 @@ TEST(LongLinear2d, SoundGrowsAndIsBoundedAsTheoryHasIt)
 }
 TEST(LongLinear2d, ViscosityIsBoundedAsTheoryHasIt)
 {
-    all_rows<2>([](double h) { return viscosity<2>(h); });
+    all_rows<2>([](double h) { return linear::viscosity<2>(h); });
 }
 TEST(LongLinear3d, SoundGrowsAndIsBoundedAsTheoryHasIt)
 {
@@ -19,7 +19,7 @@ TEST(LongLinear3d, SoundGrowsAndIsBoundedAsTheoryHasIt)
 }
 TEST(LongLinear3d, ViscosityIsBoundedAsTheoryHasIt)
 {
-    all_rows<3>([](double h) { return viscosity<3>(h); });
+    all_rows<3>([](double h) { return linear::viscosity<3>(h); });
 }
 TEST(LongLinear2d, BelowTheLimitAmplitudesStayBoundedFor1e5Steps) { expect_bounded(100000, 2); }
 
