@@ -722,7 +722,7 @@ private:
         auto move = [&](auto& term) {
             if constexpr (requires { term.move_to(t); }) term.move_to(t);
         };
-        std::apply([&](auto&... term) { (move(term), ...); }, system_.terms());
+        detail::each_in(system_.terms(), move);
     }
     static double radius_of([[maybe_unused]] auto const& p, [[maybe_unused]] std::size_t i)
     {
@@ -929,7 +929,7 @@ private:
             auto ask = [&](auto const& term) {
                 if constexpr (requires { term.writes_energy; }) due = due || step_ % term.every == 0;
             };
-            std::apply([&](auto const&... term) { (ask(term), ...); }, system_.terms());
+            detail::each_in(system_.terms(), ask);
             const double before = due ? energy().internal : 0;
             run();
             if (due) written_energy_ += energy().internal - before;

@@ -2,6 +2,8 @@
 // Solids that move by the forces on them: mechanics that needs no fluid, what the fluid gives and takes, Archimedes.
 #include "spate/boundary/floating.hpp"
 
+#include "extreme/chosen.hpp"
+
 #include <spate/spate.hpp>
 
 #include <gtest/gtest.h>
@@ -83,13 +85,15 @@ struct Tank {
     At g{0, -gravity};
     double alpha = 0.1;
 };
-template <class I = Leapfrog, class W = Serial, class Pr = Double, class S = Adami, class... O>
-auto tank(Tank const& t, I integrator, W workers, Pr precision, S state, O... options)
+/// \param integrator  one of chosen.hpp: all are one type of scene
+template <class S = Adami, class... O>
+auto tank(Tank const& t, int integrator, S state, O... options)
 {
+    chosen::integrator = integrator;
     auto water = wcsph(WendlandC2<2>{.h = 1.5 * dx}, Tait{.rho0 = rho0, .c0 = t.c0}, Continuity<2>{},
                        DensityDiffusion{.delta = 0.1}, PressureForce<2>{}, ArtificialViscosity{.alpha = t.alpha},
                        Gravity<2>{t.g});
-    return Simulation(water, integrator, Bce(t.box, dx, state, open(top), options...), workers, precision);
+    return Simulation(water, chosen::AnyIntegrator{}, Bce(t.box, dx, state, open(top), options...));
 }
 auto const& body_of(auto const& scene, int k = 0) { return scene.system().boundary().bodies()[k]; }
 constexpr Box<2> raft(double foot) { return {{{0.34, foot}}, {{0.66, foot + 0.16}}}; }
@@ -110,11 +114,10 @@ TEST(Floating, RefusesWhatIsNoBody)
 }
 // Free fall: x + v t - g t^2/2 of second-order schemes; the first-order ones lag or lead by g dt t/2. A step rounds x and v
 // a few times.
-template <class I>
-void falls(I integrator, double lead)
+void falls(int integrator, double lead)
 {
     auto s =
-        tank({.box = {{{0, 0}}, {{1, 3}}}}, integrator, Serial{}, Double{}, Adami{},
+        tank({.box = {{{0, 0}}, {{1, 3}}}}, integrator, Adami{},
              obstacle(Box<2>{{0.4, 2}, {0.6, 2.2}}, Floating<2>{.density = 500, .velocity = {{0.05, 1}}, .spin = 3}));
     constexpr int steps = 1000;
     constexpr double dt = 5e-4, t = steps * dt, rounding = 4 * steps * 0x1p-53 * 4;
@@ -135,17 +138,17 @@ void falls(I integrator, double lead)
 }
 TEST(Floating, FallsAsTheIntegratorHasIt)
 {
-    falls(Leapfrog{}, 0);
-    falls(RungeKutta2{}, 0);
-    falls(SymplecticEuler{}, -1);
-    falls(ForwardEuler{}, 1);
+    falls(chosen::leapfrog, 0);
+    falls(chosen::runge_kutta2, 0);
+    falls(chosen::symplectic_euler, -1);
+    falls(chosen::forward_euler, 1);
 }
 // What the fluid does to the markers is the opposite of what they do to it: to rounding of the sums, force and torque.
 template <class S, class... O>
 void reacts(S state, O... options)
 {
     auto s =
-        tank({}, Leapfrog{}, Serial{}, Double{}, state, options...,
+        tank({}, chosen::leapfrog, state, options...,
              obstacle(Sphere<2>{{0.5, 0.25}, 0.11}, Floating<2>{.density = 700, .velocity = {{0.4, -0.3}}, .spin = 5}));
     s.fill(Box<2>{{0, 0}, {1, 0.4}}, dx, hydrostatic);
     s.run({.steps = 20});
@@ -159,10 +162,9 @@ void reacts(S state, O... options)
     EXPECT_LT(length(force - wall), 1e-12 * size);
     EXPECT_GT(std::abs(body_of(s).torque[0]), 1e-3);
 }
-TEST(Floating, TakesWhatItGives)
+TEST(Floating, TakesWhatItGives) // Extrapolated: MovesInSpace
 {
     reacts(Adami{});
-    reacts(Extrapolated{});
     reacts(ByContinuity{});
     reacts(Adami{}, no_slip);
 }
@@ -195,7 +197,7 @@ struct Afloat {
 TEST(Floating, DrawsAsMuchWaterAsItWeighs)
 {
     for (double density : {250.0, 500.0, 750.0}) {
-        auto s = tank({}, Leapfrog{}, Serial{}, Double{}, Adami{},
+        auto s = tank({}, chosen::leapfrog, Adami{},
                       obstacle(raft(0.4 - 0.16 * density / rho0), Floating<2>{.density = density}));
         s.fill(Box<2>{{0, 0}, {1, 0.4}}, dx, hydrostatic);
         Afloat seen{.from = 0.25};
@@ -208,7 +210,7 @@ TEST(Floating, DrawsAsMuchWaterAsItWeighs)
 }
 TEST(Floating, StaysWhereItIsNeutral) // for long: tests/models/bodies.cpp
 {
-    auto s = tank({}, Leapfrog{}, Serial{}, Double{}, Adami{}, obstacle(raft(0.1), Floating<2>{.density = rho0}));
+    auto s = tank({}, chosen::leapfrog, Adami{}, obstacle(raft(0.1), Floating<2>{.density = rho0}));
     s.fill(Box<2>{{0, 0}, {1, 0.4}}, dx, hydrostatic);
     double most = 0;
     for (int k = 0; k < 50; ++k) {

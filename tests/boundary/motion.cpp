@@ -169,7 +169,7 @@ double kernel_sum_of(auto const& s, std::size_t k)
 }
 TEST(MovingWall, IsInTheListsOfItsNeighbours)
 {
-    auto s = paddle(Serial{}, {.skin = 0.05});
+    auto s = paddle(Threads{1}, {.skin = 0.05});
     for (int k = 0; k < 30; ++k) {
         s.run({.steps = 3});
         s.refresh();
@@ -208,7 +208,7 @@ TEST(MovingWall, IsSeenWhenItComesNear)
 }
 TEST(MovingWall, LetsNothingThrough) // and drives the fluid
 {
-    auto s = paddle(Serial{}, {});
+    auto s = paddle(Threads{1}, {});
     s.run({.until = 1});
     EXPECT_EQ(Leaks{0.05}(s), 0);
     double speed = 0;
@@ -277,9 +277,9 @@ TEST(MovingWall, BitsDependOnNobody)
         return s.state_hash();
     };
     const Neighbours thin{.skin = 0.1, .bins = 1.4, .trigger = 0.08}, thick{.skin = 0.4, .bins = 1.4, .trigger = 0.08};
-    const auto one = run(Serial{}, thin);
+    const auto one = run(Threads{1}, thin);
     EXPECT_EQ(run(Threads{2, 1}, thin), one);
-    EXPECT_EQ(run(Serial{}, thick), one);
+    EXPECT_EQ(run(Threads{1}, thick), one);
 }
 
 // ---- a piston (numerics X17)

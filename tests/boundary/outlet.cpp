@@ -101,7 +101,7 @@ TEST(Outlet, AContactAcrossAPeriodicFaceGoesToo)
 {
     const double overlap = 0.1 * r, elastic = 0.5 * k * overlap * overlap, pitch = 2 * r - overlap;
     Simulation sim(dem<2>({.mass = m, .radius = r}, LinearSpring{.k = k}), Leapfrog{},
-                   Periodic(Box<2>{{0, 0}, {8 * pitch, 1}}), Serial{});
+                   Periodic(Box<2>{{0, 0}, {8 * pitch, 1}}), Threads{2});
     sim.add({0.1 * pitch, 0.5});
     sim.add({7.1 * pitch, 0.5});
     sim.remove([](auto const& p, std::size_t i) { return p.id()[i] == 1; });
@@ -144,7 +144,7 @@ TEST(Outlet, IdsAreNeverGivenAgain)
 TEST(Outlet, APeriodicFaceIsNoWayOut)
 {
     Simulation sim(dem<2>({.mass = m, .radius = r}, LinearSpring{.k = k}), Leapfrog{}, Periodic(Box<2>{{0, 0}, {1, 1}}),
-                   Serial{});
+                   Threads{2});
     sim.add({0.5, 0.5}, {1, 0}); // alone: no step builds lists, nobody wraps it
     Outlet beyond_all(beyond(Box<2>{{0, 0}, {1, 1}}, right), {.every = 1});
     sim.run({.steps = 1000, .dt = 1e-3}, beyond_all);

@@ -16,16 +16,38 @@ const Box<2> box{{0, 0}, {0.2, 0.1}};
 constexpr LinearSpring spring{.k = k};
 const double omega = std::sqrt(k / m); // of a contact with a wall: m_ij = m
 
-template <class I, class... Options>
-auto discs(I integrator, Options... options)
+template <class... Options>
+auto discs(Options... options)
 {
-    return Simulation(dem<2>({.mass = m, .radius = r}, spring), integrator, Walls(box, options...));
+    return Simulation(dem<2>({.mass = m, .radius = r}, spring), Leapfrog{}, Walls(box, options...));
+}
+/// A face that moves, a plane that turns and a round wall, of springs; the other faces reflect. Those that a test does not
+/// ask for are out of the way, so that all of them are one type of scene.
+struct Rooms {
+    double speed = 0, omega = 0; ///< of the left face [m/s], of the plane about the origin [1/s]
+    HalfSpace<2> plane{{0, -10}, {0, 1}};
+    Sphere<2> round{{0, 0}, 10};
+    Box<2> box = ::box;
+};
+auto room(Rooms const& a)
+{
+    return Simulation(dem<2>({.mass = m, .radius = r}, spring), Leapfrog{},
+                      Walls(a.box, contact(left, Steady<2>{.velocity = {a.speed, 0}}, spring),
+                            contact(a.plane, Rotation<2>{.centre = {0, 0}, .omega = a.omega}, spring),
+                            contact(inside_out(a.round), spring)));
+}
+/// A grain, and walls, with friction; in space or in the plane.
+template <int Dim, class... Wall>
+auto rough(Dashpot dashpot, Friction friction, Vec<Dim, double> g, Threads threads, Wall... wall)
+{
+    return Simulation(dem<Dim>({.mass = m, .radius = r}, spring, dashpot, friction, Gravity<Dim>{g}), Leapfrog{},
+                      Walls(wall...), threads);
 }
 
 // A head-on impact lasts pi / omega, goes v / omega deep, and the force at the turn is v sqrt(k m): docs/models/dem.md, m_ij = m.
 TEST(SpringWall, IsAGrainOfInfiniteMass)
 {
-    auto s = discs(Leapfrog{}, contact(spring));
+    auto s = discs(contact(spring));
     const double v = 0.5, dt = std::numbers::pi / omega / 2000;
     s.add({r, 0.05}, {-v, 0});
     double deepest = 0, hardest = 0;
@@ -46,7 +68,7 @@ TEST(SpringWall, KeepsEnergyInEdgesAndCorners)
 {
     for (double angle : {0.3, std::numbers::pi / 4, 1.2}) {
         const double dt = 1e-5, z = omega * dt;
-        auto s = discs(Leapfrog{}, contact(spring));
+        auto s = discs(contact(spring));
         s.add({r, r}, {-0.5 * std::cos(angle), -0.5 * std::sin(angle)});
         double worst = 0, stored = 0;
         for (int n = 0; n < 200; ++n) {
@@ -57,8 +79,9 @@ TEST(SpringWall, KeepsEnergyInEdgesAndCorners)
         EXPECT_LE(worst, z * z / 4 / (1 - z * z / 4)) << angle;
         EXPECT_GT(stored, 0.9 * 0.5 * m * 0.25 * std::min(1.0, 2 * std::sin(angle) * std::cos(angle)));
     }
-    const Box<3> room{{0, 0, 0}, {0.1, 0.1, 0.1}};
-    Simulation s(dem<3>({.mass = m, .radius = r}, spring), Leapfrog{}, Walls(room, contact(spring)));
+    const Dashpot none{.e = 1};
+    const Friction smooth{.mu = 0};
+    auto s = rough<3>(none, smooth, {}, {1}, Box<3>{{0, 0, 0}, {0.1, 0.1, 0.1}}, contact(spring, none, smooth));
     s.add({r, r, r}, {-0.3, -0.3, -0.3});
     s.add({0.1 - r, 0.1 - r, r}, {0.2, 0.3, 0.1});
     const double before = s.energy().total(), z = omega * 1e-5;
@@ -78,7 +101,7 @@ TEST(SpringWall, MayBeTilted)
     Simulation tilted(dem<2>({.mass = m, .radius = r}, spring), Leapfrog{},
                       Walls(Box<2>{{-1, -1}, {1, 1}}, plane({0, 0}, {2, 0}), plane({0.2, 0}, {-1, 0}),
                             plane({0, 0}, {0, 3}), plane({0, 0.1}, {0, -1})));
-    auto straight = discs(Leapfrog{}, contact(spring));
+    auto straight = discs(contact(spring));
     const Vec<2, double> x0{0.05, 0.03}, v0{0.5, -0.3}, x1{0.15, 0.06}, v1{-0.2, 0.4};
     tilted.add(turned(x0), turned(v0)), tilted.add(turned(x1), turned(v1));
     straight.add(x0, v0), straight.add(x1, v1);
@@ -95,8 +118,7 @@ TEST(SpringWall, MayBeTilted)
 // Within a disc, and in space a cylinder with two ends, energy and the angular momentum about the axis are kept.
 TEST(SpringWall, MayBeRound)
 {
-    Simulation s(dem<2>({.mass = m, .radius = r}, spring), Leapfrog{},
-                 Walls(Box<2>{{-1, -1}, {1, 1}}, contact(inside_out(Sphere<2>{{0, 0}, 0.1}), spring)));
+    auto s = room({.round = {{0, 0}, 0.1}, .box = {{-1, -1}, {1, 1}}});
     s.add({0.03, 0.01}, {0.4, 0.3}), s.add({-0.05, 0.01}, {0.1, -0.3});
     auto spin = [](auto const& p) {
         double sum = 0;
@@ -147,14 +169,13 @@ TEST(Foot, IsTheGradientOfTheDistance)
 TEST(SpringWall, MayMove)
 {
     const double u = 0.3, v = -0.4;
-    auto s = discs(Leapfrog{}, contact(left, Steady<2>{.velocity = {u, 0}}, spring));
+    auto s = room({.speed = u});
     EXPECT_TRUE(s.driven());
     s.add({0.1, 0.05}, {v, 0});
     s.run({.until = 0.2, .dt = 1e-5});
     EXPECT_NEAR(s.particles().at(velocity, 0)[0], 2 * u - v, 1e-4);
     // One that turns: a plane through the origin that sweeps a disc along has v = omega x at the point of contact.
-    auto turning =
-        discs(RungeKutta2{}, contact(HalfSpace<2>{{0, 0}, {0, 1}}, Rotation<2>{.centre = {0, 0}, .omega = 2}, spring));
+    auto turning = room({.omega = 2, .plane = {{0, 0}, {0, 1}}});
     turning.add({0.1, r}, {0, 0});
     const double dt = std::numbers::pi / omega / 400;
     turning.run({.steps = 450, .dt = dt});
@@ -163,24 +184,24 @@ TEST(SpringWall, MayMove)
 // One face springs, the others reflect.
 TEST(SpringWall, StandsBesideElasticOnes)
 {
-    auto s = discs(SymplecticEuler{}, contact(right, spring));
+    auto s = room({});
     s.add({0.1, 0.05}, {0.5, 0.2});
     s.run({.steps = 40000, .dt = 1e-5});
     EXPECT_NEAR(s.energy().total(), 0.5 * m * (0.25 + 0.04), 1e-6);
-    EXPECT_THROW(discs(Leapfrog{}, contact(right, spring), contact(right, spring)), BadInput);
-    EXPECT_THROW(discs(Leapfrog{}, contact(top, spring), open(top)), BadInput);
+    EXPECT_THROW(Walls(box, contact(right, spring), contact(right, spring)), BadInput);
+    EXPECT_THROW(Walls(box, contact(top, spring), open(top)), BadInput);
 }
 // V48 on a floor: a disc that slips at u0 rolls at 2 u0/3 after u0/(3 mu g); a sphere at 5 u0/7 after 2 u0/(7 mu g). On a belt that
 // moves at u0 a disc at rest ends with u0/3.
 TEST(SpringWall, LetsAGrainRoll)
 {
     const double u0 = 0.5, mu = 0.3, g = 9.81;
-    const auto rough = contact(spring, Dashpot{.e = 0.5}, Friction{.mu = mu});
+    const Dashpot dashpot{.e = 0.5};
+    const Friction friction{.mu = mu};
+    const auto wall = contact(spring, dashpot, friction);
     const double rest = r - m * g / k;
     {
-        Simulation s(
-            dem<2>({.mass = m, .radius = r}, spring, Dashpot{.e = 0.5}, Friction{.mu = mu}, Gravity<2>{{0, -g}}),
-            Leapfrog{}, Walls(Box<2>{{0, 0}, {2, 1}}, rough, open(top)));
+        auto s = rough<2>(dashpot, friction, {0, -g}, {1}, Box<2>{{0, 0}, {2, 1}}, wall, open(top));
         s.add({0.5, rest}, {u0, 0});
         s.run({.until = 0.9 * u0 / (3 * mu * g), .dt = 2e-5});
         EXPECT_NEAR(s.wall_force()[0], mu * m * g, 5e-4 * mu * m * g); // it still slips
@@ -190,20 +211,15 @@ TEST(SpringWall, LetsAGrainRoll)
         EXPECT_NEAR(s.particles().at(angular_velocity, 0)[0] * r, -2 * u0 / 3, 2e-3 * u0);
     }
     {
-        Simulation s(
-            dem<3>({.mass = m, .radius = r}, spring, Dashpot{.e = 0.5}, Friction{.mu = mu}, Gravity<3>{{0, 0, -g}}),
-            RungeKutta2{}, Walls(Box<3>{{0, 0, 0}, {2, 2, 1}}, rough, open(top)));
+        auto s = rough<3>(dashpot, friction, {0, 0, -g}, {1}, Box<3>{{0, 0, 0}, {2, 2, 1}}, wall, open(top));
         s.add({0.5, 0.5, rest}, {0.6 * u0, 0.8 * u0, 0});
         s.run({.until = 0.3, .dt = 2e-5});
         EXPECT_NEAR(s.particles().at(velocity, 0)[0], 0.6 * 5 * u0 / 7, 2e-3 * u0);
         EXPECT_NEAR(s.particles().at(velocity, 0)[1], 0.8 * 5 * u0 / 7, 2e-3 * u0);
     }
     {
-        Simulation s(
-            dem<2>({.mass = m, .radius = r}, spring, Dashpot{.e = 0.5}, Friction{.mu = mu}, Gravity<2>{{0, -g}}),
-            Leapfrog{},
-            Walls(Box<2>{{0, 0}, {2, 1}}, open(top),
-                  contact(bottom, Steady<2>{.velocity = {u0, 0}}, spring, Dashpot{.e = 0.5}, Friction{.mu = mu})));
+        auto s = rough<2>(dashpot, friction, {0, -g}, {1}, Box<2>{{0, 0}, {2, 1}}, open(top),
+                          contact(bottom, Steady<2>{.velocity = {u0, 0}}, spring, dashpot, friction));
         s.add({0.5, rest});
         s.run({.until = 0.3, .dt = 2e-5});
         EXPECT_NEAR(s.particles().at(velocity, 0)[0], u0 / 3, 2e-3 * u0);
@@ -211,17 +227,16 @@ TEST(SpringWall, LetsAGrainRoll)
 }
 TEST(SpringWall, AddsNoFieldWithoutFriction)
 {
-    EXPECT_EQ(to_string(discs(Leapfrog{}, contact(spring)).particles().fields),
-              "position velocity acceleration build_position");
+    EXPECT_EQ(to_string(discs(contact(spring)).particles().fields), "position velocity acceleration build_position");
 }
 // Grains with friction in a closed box: the same bits for any number of threads, and for walls as for pairs.
 TEST(SpringWall, BitsDoNotDependOnThreads)
 {
     auto run = [](int threads, int cell) {
-        const auto rough = contact(spring, Dashpot{.e = 0.7}, Friction{.mu = 0.5});
-        Simulation s(
-            dem<2>({.mass = m, .radius = r}, spring, Dashpot{.e = 0.7}, Friction{.mu = 0.5}, Gravity<2>{{1, -9.81}}),
-            Leapfrog{}, Walls(Box<2>{{0, 0}, {0.4, 0.3}}, rough), Threads{.count = threads, .cell = cell});
+        const Dashpot dashpot{.e = 0.7};
+        const Friction friction{.mu = 0.5};
+        auto s = rough<2>(dashpot, friction, {1, -9.81}, {threads, cell}, Box<2>{{0, 0}, {0.4, 0.3}},
+                          contact(spring, dashpot, friction));
         std::mt19937 random{3};
         std::uniform_real_distribution<double> u(-1, 1);
         for (int a = 0; a < 15; ++a)

@@ -95,7 +95,7 @@ TEST(Bodies, X22TheLimitIsThatOfTheSpringOfTheFluid)
     const double kappa = lattice::table("kernel_stability_constants.csv", "cubic", 2, smoothing, "kappa");
     for (double share : {0.01, 1e-3}) {
         auto make = [&] {
-            auto s = scene({.alpha = 0, .g = {}}, Double{}, Serial{}, NoWatch{}, Disc{low, {.density = share * rho0}});
+            auto s = scene({.alpha = 0, .g = {}}, Double{}, Threads{1}, Watch{}, Disc{low, {.density = share * rho0}});
             s.fill(Box<2>{{{0, 0}}, {{0.4, 0.4}}}, dx);
             return s;
         };
@@ -140,7 +140,8 @@ auto two(auto precision, auto backend, BodyContact const& contact, Point const& 
 /// Falls on the floor of an empty tank and bounces.
 TEST(Bodies, X23OnAWallOfSpringsItBouncesAsHighAsItFell)
 {
-    auto s = scene({}, Double{}, Serial{}, Watch{}, Disc{{{{0.2, 0.3}}, R}, {.density = 1500, .contact = {.k = 1e6}}});
+    auto s =
+        scene({}, Double{}, Threads{1}, Watch{}, Disc{{{{0.2, 0.3}}, R}, {.density = 1500, .contact = {.k = 1e6}}});
     double lowest = 1, back = 0;
     while (s.time() < 0.5) {
         s.run({.steps = 1, .dt = 1e-4});
@@ -172,7 +173,7 @@ TEST(Bodies, X23AtRestOnAWallItIsAsDeepAsItsWeight)
 /// A step a hundred times too long makes more of each bounce: told at the first step, and then a stop.
 TEST(Bodies, X23AStepThatNoSpringBearsIsAStop)
 {
-    auto s = scene({}, Double{}, Serial{}, Watch{},
+    auto s = scene({}, Double{}, Threads{1}, Watch{},
                    Disc{{{{0.2, 0.3}}, R}, {.density = 1500, .velocity = {{1, 0}}, .contact = {.k = 1e8}}});
     std::string name;
     try {
@@ -188,7 +189,7 @@ TEST(Bodies, X23AStepThatNoSpringBearsIsAStop)
 }
 TEST(Bodies, X23OneThatIsNowhereIsAStopThoughNothingFeelsIt)
 {
-    auto s = scene({}, Double{}, Serial{}, Watch{}, Disc{{{{0.2, 0.3}}, R}, {.density = 1500}});
+    auto s = scene({}, Double{}, Threads{1}, Watch{}, Disc{{{{0.2, 0.3}}, R}, {.density = 1500}});
     s.run({.steps = 3});
     s.system().boundary().bodies()[0].torque[0] = std::nan("");
     StopFacts facts;
@@ -204,7 +205,7 @@ TEST(Bodies, X23OneThatIsNowhereIsAStopThoughNothingFeelsIt)
 /// In each other by two spacings, in space without weight: they part, and what both have together stays.
 TEST(Bodies, X23InEachOtherTheyPartAndKeepTheirMomentum)
 {
-    auto s = two(Double{}, Serial{}, {.k = 1e3}, {}, -2 * dx);
+    auto s = two(Double{}, Threads{1}, {.k = 1e3}, {}, -2 * dx);
     auto momentum = [&] {
         return body(s, 0).mass * body(s, 0).state.velocity + body(s, 1).mass * body(s, 1).state.velocity;
     };

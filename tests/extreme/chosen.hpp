@@ -82,7 +82,7 @@ public:
     }
     void step(auto& s, double dt) const
     {
-        if (integrator != runge_kutta2) s.save(); // as `saves` says
+        if (integrator != runge_kutta2) s.keep(); // as `saves` says
         with([&](auto i) {
             i.step(s, dt);
             return 0;

@@ -127,24 +127,24 @@ auto discs(Backend backend)
 }
 TEST_F(CheckpointTest, OfDiscsBetweenWallsKeepsTheHistoryOfTheirContacts)
 {
-    auto serial = discs(Serial{});
-    goes_on([] { return discs(Threads{.count = 2, .cell = 2}); }, serial, 1500, {700, 1203});
-    EXPECT_GE(serial.system().rebuilds(), 20);
+    auto one = discs(Threads{.count = 1});
+    goes_on([] { return discs(Threads{.count = 2, .cell = 2}); }, one, 1500, {700, 1203});
+    EXPECT_GE(one.system().rebuilds(), 20);
     auto threads = discs(Threads{.count = 2});
-    goes_on([] { return discs(Serial{.cell = 3}); }, threads, 1500, {999});
+    goes_on([] { return discs(Threads{.count = 1, .cell = 3}); }, threads, 1500, {999});
     const auto state = io::state_of(threads);
     EXPECT_GT(state.table<std::uint32_t>("pairs_0_0/ids", 2).size(), 20u);
-    EXPECT_EQ(threads.state_hash(), serial.state_hash());
+    EXPECT_EQ(threads.state_hash(), one.state_hash());
 }
 /// What the test above can see: neighbours in another order, contacts without their past.
 TEST_F(CheckpointTest, GoesOnWithOtherBitsIfListsAreThoseOfNowOrContactsAreForgotten)
 {
-    auto whole = discs(Serial{});
+    auto whole = discs(Threads{.count = 1});
     whole.run({.steps = 700, .cfl = 0.2});
     const io::State state = io::state_of(whole);
     whole.run({.steps = 800, .cfl = 0.2});
     auto hash = [](io::State const& s) {
-        auto again = discs(Serial{});
+        auto again = discs(Threads{.count = 1});
         io::resume(again, s);
         again.run({.steps = 800, .cfl = 0.2});
         return again.state_hash();
@@ -184,7 +184,7 @@ TEST_F(CheckpointTest, HoldsWhatNoEvaluationMakesAnew)
     using Dam = decltype(dam(Serial{}))::Engine::M;
     EXPECT_EQ(to_string(Dam::lasting<0>()), "position velocity density acceleration build_position");
     EXPECT_EQ(to_string(Dam::lasting<1>()), "position density");
-    using Grains = decltype(discs(Serial{}))::Engine::M;
+    using Grains = decltype(discs(Threads{}))::Engine::M;
     EXPECT_EQ(to_string(Grains::lasting<0>()), "position velocity acceleration build_position");
 }
 TEST_F(CheckpointTest, IsTheSameFileWhoeverRanTheScene)

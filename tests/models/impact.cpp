@@ -32,7 +32,7 @@ Series buchner()
     for (const auto k : order) sorted.add(c.t[k], c.y[k]);
     return sorted;
 }
-TEST(Impact, TableHasTheArrivalAndThePlateauOfTheExperiment)
+TEST(LongImpact, TableHasTheArrivalAndThePlateauOfTheExperiment)
 {
     EXPECT_NEAR(buchner().above(0.2), 2.5, 0.02);
     EXPECT_NEAR(buchner().mean(3, 5), 0.55, 0.1);

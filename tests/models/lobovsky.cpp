@@ -28,7 +28,7 @@ Series measured(std::string const& sensor)
     return models::column_of("lobovsky_2014_pressure_H300.csv", "tau", sensor);
 }
 
-TEST(Lobovsky, TablesAreThoseOfTheExperiment)
+TEST(LongLobovsky, TablesAreThoseOfTheExperiment)
 {
     EXPECT_NEAR(measured("P_S1").mean(4, 5), 0.65, 0.01);
     EXPECT_NEAR(measured("P_S2").mean(4, 5), 0.65, 0.01);

@@ -43,7 +43,7 @@ struct Stoker {
         return std::max(ritter(speed), plateau);
     }
 };
-TEST(Shallow, PlateauOfStokerConservesMassAndMomentum)
+TEST(LongShallow, PlateauOfStokerConservesMassAndMomentum)
 {
     const Stoker s(0.1);
     const double u = 2 * (1 - std::sqrt(s.plateau));

@@ -20,7 +20,7 @@ using models::Series;
 
 Series measured(std::string const& name) { return models::column_of("spheric2_kleefsman_2005.csv", "t", name); }
 
-TEST(Spheric2, GaugesAreNamedByWhenTheyGetWet)
+TEST(LongSpheric2, GaugesAreNamedByWhenTheyGetWet)
 {
     EXPECT_NEAR(measured("h_x1488").above(0.02), 0.218, 0.02); // rows are 0.02 s apart there
     EXPECT_NEAR(measured("h_x0992").above(0.02), 0.368, 0.02);

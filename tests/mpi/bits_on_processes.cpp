@@ -1,35 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Run by mpirun: the same scenes as on virtual ranks, the same bits; nothing but the transport differs.
-#include "backend/scenes_of_ranks.hpp"
-
-#include "spate/backend/mpi.hpp"
+// Run by mpirun: scenes as on virtual ranks, the bits of one; nothing but the transport differs.
+#include "mpi/going_on.hpp"
 
 #include <gtest/gtest.h>
 
 namespace {
 
-using namespace ranked;
+using namespace spate;
+using going_on::Processes;
 
-template <class Program>
-void expect_bits_of_one(Program program)
+template <class Case>
+void expect_bits_of_one()
 {
-    const auto one = program(Serial{});
-    EXPECT_GE(one.rebuilds, 20);
-    const auto many = program(Mpi{Serial{}, 2});
-    EXPECT_EQ(many.hash, one.hash);
-    EXPECT_EQ(many.rebuilds, one.rebuilds);
-    const auto moved = program(Mpi{Threads{2}, 1, Balance{.forced = 7}});
-    EXPECT_EQ(moved.hash, one.hash) << "cells moved, 2 threads a process";
-    EXPECT_EQ(moved.rebuilds, one.rebuilds);
+    const auto one = going_on::run<Case>(Serial{}, Case::steps);
+    EXPECT_GE(one.rebuilds, Case::rebuilds);
+    going_on::expect_the_same(going_on::run<Case>(Processes{Threads{1}, 2}, Case::steps), one, "");
+    const auto moved = going_on::run<Case>(Processes{Threads{2}, 1, Balance{.forced = 7}}, Case::steps);
+    going_on::expect_the_same(moved, one, "cells moved, 2 threads a process");
+    if (MpiRanks().count() > 1) {
+        EXPECT_GT(moved.moved_cells, 0);
+    }
 }
 
-TEST(BitsOnProcesses, OfADamBreakAreThoseOfOne)
-{
-    expect_bits_of_one([](auto backend) { return dam(backend); });
-}
-TEST(BitsOnProcesses, OfContactsThatRememberAreThoseOfOne)
-{
-    expect_bits_of_one([](auto backend) { return crowd(backend); });
-}
+TEST(BitsOnProcesses, OfADamBreakAreThoseOfOne) { expect_bits_of_one<going_on::Column>(); }
+TEST(BitsOnProcesses, OfContactsThatRememberAreThoseOfOne) { expect_bits_of_one<going_on::Hopper>(); }
 
 } // namespace

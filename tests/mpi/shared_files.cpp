@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Run by mpirun: processes write a file together, at once if HDF5 knows MPI, and none of them holds what all have.
-#include "io/scenes_that_go_on.hpp"
 #include "io/shared_rows.hpp"
-#include "spate/backend/mpi.hpp"
+#include "mpi/going_on.hpp"
 #include "spate/io/checkpoint.hpp"
 
 #include <atomic>
@@ -42,7 +41,7 @@ void operator delete[](void* at, std::size_t) noexcept { forget(at); }
 namespace {
 
 using namespace spate;
-using going_on::End;
+using going_on::End, going_on::Processes;
 
 /// A folder that all processes see, gone after the test.
 class SharedFiles : public testing::Test {
@@ -64,13 +63,14 @@ protected:
         const auto file = folder / "checkpoint.h5";
         const End whole = going_on::run<Case>(Serial{}, Case::steps);
         const End half = going_on::run<Case>(Serial{}, cut);
-        const End here = going_on::run<Case>(Mpi{Serial{}, 2, Balance{.every = 1}}, cut, nullptr, [&](auto& any) {
-            io::write_checkpoint(any, file, io::detail::part_of(any));
-        });
+        const End here =
+            going_on::run<Case>(Processes{Threads{1}, 2, Balance{.every = 1}}, cut, nullptr,
+                                [&](auto& any) { io::write_checkpoint(any, file, io::detail::part_of(any)); });
         going_on::expect_the_same(here, half, "before");
         const io::State state = io::read_checkpoint(file);
         EXPECT_THAT(going_on::differences(state, half.state), testing::IsEmpty());
-        going_on::expect_the_same(going_on::run<Case>(Mpi{Serial{}, 1}, Case::steps - cut, &state), whole, "on all");
+        going_on::expect_the_same(going_on::run<Case>(Processes{Threads{1}, 1}, Case::steps - cut, &state), whole,
+                                  "on all");
         if (ranks.rank() == 0)
             going_on::expect_the_same(going_on::run<Case>(Serial{}, Case::steps - cut, &state), whole, "on one");
     }

@@ -205,13 +205,13 @@ template <class S>
 class NeighbourLists : public ::testing::Test {};
 // clang-format off
 using Settings = ::testing::Types<
-    Setting<1, Double>, Setting<1, Float>, Setting<1, ScalarOf<Double>>, Setting<1, ScalarOf<Float>>,
+    Setting<1, Double>, Setting<1, Float>,
     Setting<2, Double>, Setting<2, Float>, Setting<2, ScalarOf<Double>>, Setting<2, ScalarOf<Float>>,
-    Setting<3, Double>, Setting<3, Float>, Setting<3, ScalarOf<Double>>, Setting<3, ScalarOf<Float>>>;
+    Setting<3, Double>, Setting<3, Float>>; // lists are told the width of a pack when they are built
 // clang-format on
 TYPED_TEST_SUITE(NeighbourLists, Settings);
 
-constexpr int cases = 834; // of each of the 12 settings: 10,008
+constexpr int cases = 1251; // of each of the 8 settings: 10,008
 
 TYPED_TEST(NeighbourLists, EqualAllPairs)
 {
@@ -221,7 +221,7 @@ TYPED_TEST(NeighbourLists, EqualAllPairs)
     for (int k = 0; k < cases; ++k) {
         const Scene<Dim> s = scene<Dim>(dice);
         Simulation sim(physics(Smoothing<CubicSpline<Dim>>{{.h = s.h}}, CountPairs{}), ForwardEuler{}, boundary(s),
-                       Serial{.cell = s.cell}, typename TypeParam::precision{}, Watch{}, s.neighbours);
+                       Serial{.cell = s.cell}, typename TypeParam::precision{}, NoWatch{}, s.neighbours);
         for (auto const& x : s.x) sim.add(x);
         sim.prepare();
         sim.system().rebuild();
@@ -243,7 +243,7 @@ TEST(NeighbourLists, DoNotDependOnTheOrderOfParticles)
         Scene<2> s = scene<2>(dice);
         auto lists = [&](bool backwards) {
             Simulation sim(physics(Smoothing<CubicSpline<2>>{{.h = s.h}}, CountPairs{}), ForwardEuler{}, boundary(s),
-                           Serial{.cell = s.cell}, Double{}, Watch{}, s.neighbours);
+                           Serial{.cell = s.cell}, Double{}, NoWatch{}, s.neighbours);
             const std::size_t n = s.x.size();
             std::vector<std::uint32_t> id;
             for (std::size_t i = 0; i < n; ++i) {
@@ -298,7 +298,7 @@ TEST(NeighbourLists, EqualAllPairsWithoutABox)
     for (int k = 0; k < 100; ++k) {
         const Scene<3> s = scene<3>(dice);
         Simulation sim(physics(Smoothing<CubicSpline<3>>{{.h = s.h}}, CountPairs{}), ForwardEuler{}, Open{},
-                       Serial{.cell = s.cell}, Double{}, Watch{}, s.neighbours);
+                       Serial{.cell = s.cell}, Double{}, NoWatch{}, s.neighbours);
         for (auto const& x : s.x) sim.add(x);
         sim.prepare();
         sim.system().rebuild();

@@ -13,8 +13,9 @@ using namespace wave;
 template <class I>
 double error(int n, double T, double omega)
 {
-    auto sim = standing<1, 2, I>(CubicSpline<2>{1.3});
-    const Amplitude<1> amplitude(sim);
+    choose(CubicSpline<2>{1.3}), choose(I{});
+    auto sim = standing<2>(1, 2, 1.3);
+    const Amplitude amplitude(1, sim);
     sim.run({.steps = n, .dt = T / n});
     return std::hypot(amplitude.velocity(sim) - std::cos(omega * T), amplitude.density(sim) + std::sin(omega * T));
 }
@@ -43,7 +44,8 @@ TYPED_TEST(TimeOrder, OfSoundIsThatOfTheIntegrator)
 template <class I>
 std::vector<double> state(int n, double T)
 {
-    auto sim = standing<1, 2, I>(CubicSpline<2>{1.3}, 0.1);
+    choose(CubicSpline<2>{1.3}), choose(I{});
+    auto sim = standing<2>(1, 2, 1.3, 0.1);
     sim.run({.steps = n, .dt = T / n});
     auto const& p = sim.particles();
     std::vector<double> y(5 * p.size());

@@ -4,7 +4,9 @@
 
 #include "spate/spate.hpp"
 
+#include "extreme/chosen.hpp"
 #include "lattice.hpp"
+#include "physics/one_of.hpp"
 
 #include <Eigen/Dense>
 
@@ -22,44 +24,56 @@ constexpr double k0 = 2 * std::numbers::pi / N;
 /// Rows across the wave: about the shortest periodic box that neighbour lists with a skin of 1/4 allow.
 inline int rows(double h) { return int(std::ceil(2 * 2 * h * 1.25)); }
 
-/// A fluid at rest on the lattice without viscosity, moving as v = amplitude c0 khat sin(k . x) at first.
-/// \tparam Axes  1: k along x; 2: along the diagonal of x and y
-template <int Axes, int Sigma, class Integrator, class K>
-auto standing(K kernel, double amplitude = eps)
+/// Kernel, integrator and sigma are chosen when a test runs: they are one type of scene, compiled once.
+inline void choose(CubicSpline<2>) { chosen::kernel = 0; }
+template <int Dim>
+void choose(WendlandC2<Dim>)
 {
-    constexpr int dim = K::dim;
+    chosen::kernel = 2;
+}
+inline void choose(SymplecticEuler) { chosen::integrator = chosen::symplectic_euler; }
+inline void choose(ForwardEuler) { chosen::integrator = chosen::forward_euler; }
+inline void choose(Leapfrog) { chosen::integrator = chosen::leapfrog; }
+inline void choose(RungeKutta2) { chosen::integrator = chosen::runge_kutta2; }
+
+/// A fluid at rest on the lattice without viscosity, moving as v = amplitude c0 khat sin(k . x) at first.
+/// \param axes  1: k along x; 2: along the diagonal of x and y    \param h  of the chosen kernel
+template <int dim>
+auto standing(int axes, int sigma, double h, double amplitude = eps)
+{
     Box<dim> box{{}, {}};
-    for (int c = 0; c < dim; ++c) box.hi[c] = c < Axes ? N : rows(kernel.h);
-    auto fluid = wcsph(kernel, LinearEos{.rho0 = rho0, .c0 = 1}, Continuity<Sigma>{}, PressureForce<Sigma>{});
-    Simulation sim(fluid, Integrator{}, Periodic(box), Serial{}, Double{}, NoWatch{});
+    for (int c = 0; c < dim; ++c) box.hi[c] = c < axes ? N : rows(h);
+    auto fluid = wcsph(chosen::AnyKernel<dim>{chosen::support() * h}, LinearEos{.rho0 = rho0, .c0 = 1},
+                       OneOf<Continuity<1>, Continuity<2>>{{}, sigma - 1},
+                       OneOf<PressureForce<1>, PressureForce<2>>{{}, sigma - 1});
+    Simulation sim(fluid, chosen::AnyIntegrator{}, Periodic(box), Serial{}, Double{}, NoWatch{});
     sim.fill(box, 1, [&](auto& p, std::size_t i) {
         double phase = 0;
-        for (int c = 0; c < Axes; ++c) phase += k0 * p.at(position, i)[c];
+        for (int c = 0; c < axes; ++c) phase += k0 * p.at(position, i)[c];
         Vec<dim, double> v{};
-        for (int c = 0; c < Axes; ++c) v[c] = amplitude / std::sqrt(Axes) * std::sin(phase);
+        for (int c = 0; c < axes; ++c) v[c] = amplitude / std::sqrt(axes) * std::sin(phase);
         p.put(velocity, i, v);
     });
     return sim;
 }
 
 /// Amplitudes of the wave over eps: of velocity on khat sin, of density on rho0 cos; by where particles started.
-template <int Axes>
 class Amplitude {
 public:
-    explicit Amplitude(auto const& sim)
+    Amplitude(int axes, auto const& sim) : axes_(axes)
     {
         auto const& p = sim.particles();
         phase_.resize(p.size());
         for (std::size_t i = 0; i < p.size(); ++i)
-            for (int c = 0; c < Axes; ++c) phase_[p.id()[i]] += k0 * p.at(position, i)[c];
+            for (int c = 0; c < axes; ++c) phase_[p.id()[i]] += k0 * p.at(position, i)[c];
     }
     [[nodiscard]] double velocity(auto const& sim) const
     {
         auto const& p = sim.particles();
         double sum = 0;
         for (std::size_t i = 0; i < p.size(); ++i)
-            for (int c = 0; c < Axes; ++c)
-                sum += p.at(spate::velocity, i)[c] / std::sqrt(Axes) * std::sin(phase_[p.id()[i]]);
+            for (int c = 0; c < axes_; ++c)
+                sum += p.at(spate::velocity, i)[c] / std::sqrt(axes_) * std::sin(phase_[p.id()[i]]);
         return 2 * sum / (eps * double(p.size()));
     }
     [[nodiscard]] double density(auto const& sim) const
@@ -72,6 +86,7 @@ public:
     }
 
 private:
+    int axes_;
     std::vector<double> phase_;
 };
 
@@ -108,17 +123,23 @@ inline Oscillation fitted(std::vector<double> const& y)
 }
 
 /// The fit over a number of periods.
-template <int Axes, int Sigma, class Integrator, class K>
-Oscillation measured(K kernel, double dt, double omega, double periods)
+template <int dim>
+Oscillation measured(int axes, int sigma, double h, double dt, double omega, double periods)
 {
-    auto sim = standing<Axes, Sigma, Integrator>(kernel);
-    const Amplitude<Axes> amplitude(sim);
+    auto sim = standing<dim>(axes, sigma, h);
+    const Amplitude amplitude(axes, sim);
     std::vector<double> y{amplitude.velocity(sim)};
     while (double(sim.steps()) * dt * omega < periods * 2 * std::numbers::pi) {
         sim.run({.steps = 1, .dt = dt});
         y.push_back(amplitude.velocity(sim));
     }
     return fitted(y);
+}
+template <class Integrator, class K>
+Oscillation measured(int axes, int sigma, K kernel, double dt, double omega, double periods)
+{
+    choose(kernel), choose(Integrator{});
+    return measured<K::dim>(axes, sigma, kernel.h, dt, omega, periods);
 }
 
 } // namespace wave

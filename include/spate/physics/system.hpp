@@ -14,7 +14,7 @@
 #include "spate/physics/sweep.hpp"
 
 #include <atomic>
-#include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <stdexcept>
@@ -507,9 +507,12 @@ public:
     /// The exact sum of f(i) over the mobile particles, whoever adds.
     double sum(auto const& f) const
     {
-        return sum_of([&](std::size_t first, std::size_t last, double* to) {
-            for (std::size_t i = first; i < last; ++i) *to++ = f(i);
-        });
+        using F = std::remove_cvref_t<decltype(f)>;
+        return sum_of(
+            [](void const* what, std::size_t first, std::size_t last, double* to) {
+                for (std::size_t i = first; i < last; ++i) *to++ = (*static_cast<F const*>(what))(i);
+            },
+            std::addressof(f));
     }
     /// Half the sum over directed pairs of what the terms of contact store, energy(ij) or energy(i, j, ij) [J]; lists must be
     /// current.
@@ -912,8 +915,9 @@ private:
                 }
         return sum;
     }
-    /// The exact sum of what `fill` writes, a stretch of particles at a time; compiled once for all that is summed.
-    double sum_of(std::function<void(std::size_t, std::size_t, double*)> const& fill) const
+    /// The exact sum of what fill(what, ...) writes, a stretch of particles at a time; compiled once for all that is summed.
+    [[gnu::noinline]] double sum_of(void (*fill)(void const*, std::size_t, std::size_t, double*),
+                                    void const* what) const
     {
         ExactSum total;
         std::mutex lock;
@@ -921,7 +925,7 @@ private:
         backend_.for_each((n + task - 1) / task, [&](std::size_t k) {
             std::array<double, task> addend;
             const std::size_t first = k * task, last = std::min(n, first + task);
-            fill(first, last, addend.data());
+            fill(what, first, last, addend.data());
             ExactSum mine;
             for (std::size_t i = 0; i < last - first; ++i) mine.add(addend[i]);
             const std::lock_guard hold(lock);
@@ -967,7 +971,7 @@ private:
         auto one = [&](auto& t) {
             if constexpr (requires { t.carry(0.0, true, 1.0); }) t.carry(carry.elapsed, carry.keep, carry.reach);
         };
-        std::apply([&](auto&... t) { (one(t), ...); }, terms);
+        detail::each_in(terms, one);
     }
     template <class X>
     [[nodiscard]] X radius_at(std::size_t i) const
