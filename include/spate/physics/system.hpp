@@ -14,6 +14,7 @@
 #include "spate/physics/sweep.hpp"
 
 #include <atomic>
+#include <bit>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -43,7 +44,8 @@ public:
     static constexpr bool mixed = !std::same_as<PairT, T>;
     static constexpr int dim = M::dim;
     static constexpr int species_count = M::species;
-    static constexpr std::size_t task = 2048; ///< particles in a task of a pass; a multiple of every pack
+    static constexpr std::size_t task = 2048;   ///< particles in a task of a pass; a multiple of every pack
+    static constexpr std::size_t stretch = 512; ///< of those, how many stay in the first-level cache over several passes
 
     /// Whether walls reflect what has gone through them.
     static constexpr bool reflects = requires(B const b, Vec<dim, double> x) { b.reflect(x, x, 0.0); };
@@ -98,7 +100,11 @@ public:
     {
         return std::get<s>(species_);
     }
-    auto& mobile() { return species<0>().particles; }
+    auto& mobile()
+    {
+        if (puts_off_) finish();
+        return species<0>().particles;
+    }
     auto const& mobile() const { return species<0>().particles; }
     /// f(integral constant s) for each species.
     void each_species(auto&& f) const
@@ -361,6 +367,17 @@ public:
         each_species([&](auto s) { swap_with_built(species<s()>().particles); });
     }
 
+    // ---- passes
+    /// Passes over particles, which look at nothing beyond a particle, wait from now on until something does, or somebody
+    /// asks for mobile(): then each stretch of particles goes through all of them while it is in the cache.
+    void put_off() { puts_off_ = true; }
+    /// Nothing waits any longer.
+    void finish()
+    {
+        puts_off_ = false;
+        run_waiting();
+    }
+
     // ---- rates
     /// Brings the rates of the asked fields up to date in every species that has them. What terms keep of pairs comes along
     /// to where the positions are; but not between save() and advance_saved(), where a state is only tried.
@@ -445,11 +462,14 @@ public:
     {
         if constexpr (M::floats) boundary_.bodies().keep();
         each_species([&](auto s) {
-            auto& x = species<s()>();
-            for_each(M::template evolving<s()>(), [&](auto f) {
-                for (std::size_t c = 0; c < std::size(x.particles.column(f)); ++c)
-                    x.start.column(f)[c] = x.particles.column(f)[c];
-            });
+            if constexpr (decltype(M::template evolving<s()>())::size > 0)
+                pass_over<s()>([s](System& me, std::size_t first, std::size_t last) {
+                    auto& x = me.template species<s()>();
+                    for_each(M::template evolving<s()>(), [&](auto f) {
+                        for (std::size_t c = 0; c < std::size(x.particles.column(f)); ++c)
+                            copy_column(x.particles.column(f)[c].data(), x.start.column(f)[c].data(), first, last);
+                    });
+                });
         });
     }
     /// The evolving fields as they were when save() or keep() was called, what derives from them zero; false if the particles
@@ -489,19 +509,20 @@ public:
     template <bool with_acceleration = true>
     [[nodiscard]] Extremes extremes() const
     {
-        Extremes e;
-        std::mutex lock;
-        auto const& p = mobile();
-        const std::size_t n = p.size();
-        backend_.for_each((n + task - 1) / task, [&](std::size_t k) {
-            const Extremes mine =
-                extremes_of<V, with_acceleration>(p, k * task, std::min(n, (k + 1) * task), M::template evolving<0>());
-            const std::lock_guard hold(lock);
-            e |= mine;
-        });
-        if constexpr (M::moves) e |= wall_extremes_here();
-        return ranks().all(e, agree::Join{});
+        auto seen = room_to_see();
+        stretches<0>([&](std::size_t first, std::size_t last) { see<with_acceleration>(seen, first, last); });
+        return extremes_in(seen);
     }
+    /// The same as a pass; seen() tells them once it has run.
+    template <bool with_acceleration = true>
+    void look()
+    {
+        seen_ = room_to_see();
+        pass_over<0>([](System& me, std::size_t first, std::size_t last) {
+            me.template see<with_acceleration>(me.seen_, first, last);
+        });
+    }
+    [[nodiscard]] Extremes seen() const { return extremes_in(seen_); }
     /// Of markers that move: how far since the lists were built, and how fast.
     [[nodiscard]] Extremes wall_extremes() const { return ranks().all(wall_extremes_here(), agree::Join{}); }
     /// The exact sum of f(i) over the mobile particles, whoever adds.
@@ -526,7 +547,7 @@ public:
             if (alone && species<0>().bins.cells() > 0 && !lists_know_all())
                 throw std::logic_error("spate: particles came or went since the lists were built; call "
                                        "make_lists_current() before energy()");
-            if constexpr (!alone) bring_records<0, M::mask(read_for_energy() & ParticlesOf<0>::fields)>();
+            bring_records<0, M::mask(read_for_energy()) & M::planner.record(0)>();
             backend_.for_each(species<0>().bins.cells(), [&](std::size_t cell) {
                 const ExactSum mine = pair_energy_of(cell, share);
                 const std::lock_guard hold(lock);
@@ -588,30 +609,16 @@ public:
             f(i, sums);
         }
     }
-    /// Sends back what has gone through elastic walls. Returns whether any has.
-    bool reflect() requires(reflects)
+    /// Sends back what has gone through elastic walls.
+    void reflect() requires(reflects)
     {
-        auto& p = mobile();
-        std::atomic<bool> any = false, lost = false;
-        stretches<0>([&](std::size_t first, std::size_t last) {
-            constexpr auto W = std::size_t(width<V>);
-            for (std::size_t k = first; k < last; k += W) {
-                if (!boundary_.any_beyond(p.template load_at<V>(position, k), radius_at<V>(k))) continue;
-                for (std::size_t i = k; i < std::min(last, k + W); ++i) {
-                    Vec<dim, double> x = p.at(position, i), v = p.at(velocity, i);
-                    const auto bounce = boundary_.reflect(x, v, radius_at<double>(i));
-                    if (bounce == B::Bounce::none) continue;
-                    p.put(position, i, x), p.put(velocity, i, v);
-                    any = true;
-                    if (bounce == B::Bounce::too_many) lost = true;
-                }
-            }
-        });
-        lost_ = ranks().all(lost_ || lost, agree::Or{});
-        return ranks().all(bool(any), agree::Or{});
+        bounced_ = false;
+        pass_over<0>([](System& me, std::size_t first, std::size_t last) { me.reflect(first, last); });
     }
+    /// Whether the last reflect() has sent any back.
+    [[nodiscard]] bool bounced() const { return ranks().all(bounced_, agree::Or{}); }
     /// Whether a particle bounced too often within one step.
-    [[nodiscard]] bool lost() const { return lost_; }
+    [[nodiscard]] bool lost() const { return ranks().all(lost_, agree::Or{}); }
     /// The sum of what visit(sum, i, j, x, ij, force) makes of each directed contact i <- j of mobile particles: x = x_i - x_j
     /// [m], ij what terms see, force on i [N]. Lists must be current. Cells come in any order, so a Sum must not depend on it.
     template <class Sum>
@@ -803,6 +810,70 @@ public:
     }
 
 private:
+    using Pass = std::function<void(System&, std::size_t first, std::size_t last)>;
+    /// A pass over the padded columns of a species, a stretch at a time. It touches nothing but its particles.
+    template <int s>
+    void pass_over(Pass pass)
+    {
+        waiting_[std::size_t(s)].push_back(std::move(pass));
+        if (!puts_off_) run_waiting<s>();
+    }
+    template <int s>
+    void run_waiting()
+    {
+        auto& waiting = waiting_[std::size_t(s)];
+        if (waiting.empty()) return;
+        stretches<s>([&](std::size_t first, std::size_t last) {
+            for (auto const& pass : waiting) pass(*this, first, last);
+        });
+        waiting.clear();
+    }
+    void run_waiting()
+    {
+        each_species([&](auto s) { run_waiting<s()>(); });
+    }
+    /// f(first, last) over stretches of the padded columns of a species.
+    template <int s>
+    void stretches(auto const& f) const
+    {
+        const std::size_t n = species<s>().particles.size();
+        backend_.for_each((n + task - 1) / task, [&](std::size_t k) {
+            const std::size_t end = std::min(n, (k + 1) * task);
+            for (std::size_t first = k * task; first < end; first += stretch) f(first, std::min(end, first + stretch));
+        });
+    }
+    using Seen = std::vector<LaneExtremes<V, dim>>; ///< by task
+    [[nodiscard]] Seen room_to_see() const { return Seen((species<0>().particles.size() + task - 1) / task); }
+    template <bool with_acceleration>
+    void see(Seen& seen, std::size_t first, std::size_t last) const
+    {
+        seen[first / task].template add<with_acceleration>(species<0>().particles, first, last,
+                                                           M::template evolving<0>());
+    }
+    [[nodiscard]] Extremes extremes_in(Seen const& seen) const
+    {
+        Extremes e;
+        const int lanes = int(std::min(species<0>().particles.size(), std::size_t(width<V>)));
+        for (auto const& of_task : seen) e |= of_task.over(lanes);
+        if constexpr (M::moves) e |= wall_extremes_here();
+        return ranks().all(e, agree::Join{});
+    }
+    void reflect(std::size_t first, std::size_t last) requires(reflects)
+    {
+        auto& p = species<0>().particles;
+        constexpr auto W = std::size_t(width<V>);
+        for (std::size_t k = first; k < last; k += W) {
+            if (!boundary_.any_beyond(p.template load_at<V>(position, k), radius_at<V>(k))) continue;
+            for (std::size_t i = k; i < std::min(last, k + W); ++i) {
+                Vec<dim, double> x = p.at(position, i), v = p.at(velocity, i);
+                const auto bounce = boundary_.reflect(x, v, radius_at<double>(i));
+                if (bounce == B::Bounce::none) continue;
+                p.put(position, i, x), p.put(velocity, i, v);
+                std::atomic_ref(bounced_).store(true);
+                if (bounce == B::Bounce::too_many) std::atomic_ref(lost_).store(true);
+            }
+        }
+    }
     [[nodiscard]] std::int64_t pairs_here() const
     {
         std::int64_t n = 0;
@@ -829,6 +900,7 @@ private:
     /// Sums the forces on bodies that float: their rates.
     void push_bodies()
     {
+        run_waiting<1>();
         auto const& p = species<1>().particles;
         using Sums = typename std::remove_cvref_t<decltype(boundary_.bodies())>::Sums;
         Sums total{};
@@ -847,6 +919,7 @@ private:
     template <bool from_start, class... Sets>
     void advance_bodies(double dt, Sets... sets)
     {
+        run_waiting<1>();
         (boundary_.bodies().template advance<from_start>(sets, dt), ...);
         boundary_.turn_bodies();
         auto nearest = [this](Vec<dim, double> x) {
@@ -881,35 +954,41 @@ private:
     static constexpr bool has_pair_energy = []<class... X>(std::tuple<X...> const*) {
         return (false || ... || stores_energy<X>);
     }(static_cast<typename M::Terms const*>(nullptr));
-    /// Of the targets in a cell. Both copies of a pair store the same: one is counted, but for images and others' particles.
+    /// Of the targets in a cell, from records of now. Both copies of a pair store the same: one is counted, but for images and
+    /// others' particles.
     [[nodiscard]] ExactSum pair_energy_of(std::size_t cell, auto const& share) const
     {
         auto const& p = mobile();
-        auto const& bins = species<0>().bins;
         auto const& lists = this->template lists<0, 0>().of_cell(cell);
-        auto const& x = p.column(position);
+        auto const& packed = species<0>().packed;
+        using L = typename std::remove_cvref_t<decltype(packed)>::L;
         constexpr auto W = std::size_t(width<PairV>);
-        constexpr auto stride = std::uint32_t(Layout<dim, Set<M::template record<0>()>>::stride);
-        const std::size_t n = p.size(), first = std::size_t(bins.begin(cell));
-        const double most2 = physics_.interaction.range() * physics_.interaction.range() * (1 + 1e-6);
+        PairT const* const base = packed.data.data();
+        const auto u = p.template uniforms<PairV>();
+        const std::size_t n = p.size(), first = std::size_t(species<0>().bins.begin(cell));
+        const auto most2 = PairT(physics_.interaction.range() * physics_.interaction.range() * (1 + 1e-5));
         ExactSum sum;
-        for (std::size_t block = 0; block + 1 < lists.begin.size(); ++block)
-            for (auto row = std::size_t(lists.begin[block]); row < std::size_t(lists.begin[block + 1]); ++row)
-                for (std::size_t lane = 0; lane < W; ++lane) {
-                    const std::size_t j = std::uint32_t(lists.index[row * W + lane]) / stride;
-                    const std::size_t i = first + std::size_t(lists.target_of(block * W + lane));
+        for (std::size_t block = 0; block + 1 < lists.begin.size(); ++block) {
+            std::array<std::int32_t, W> at;
+            for (std::size_t lane = 0; lane < W; ++lane)
+                at[lane] = (std::int32_t(first) + lists.target_of(block * W + lane)) * L::stride;
+            const auto ri = gathered<PairV>(base, at.data(), L{});
+            for (auto row = std::size_t(lists.begin[block]); row < std::size_t(lists.begin[block + 1]); ++row) {
+                const auto rj = gathered<PairV>(base, lists.index.data() + row * W, L{});
+                const auto x =
+                    detail::seen_by<Interaction>(ri, u)[position] - detail::seen_by<Interaction>(rj, u)[position];
+                for (unsigned near = bits(x.squaredNorm() < PairV(most2)); near != 0; near &= near - 1) {
+                    const auto lane = std::size_t(std::countr_zero(near));
+                    const std::size_t j = std::uint32_t(lists.index[row * W + lane]) / std::uint32_t(L::stride);
+                    const std::size_t i = std::size_t(at[lane]) / std::size_t(L::stride);
                     if (j <= i || j == n) continue;
-                    double d2 = 0;
-                    for (std::size_t c = 0; j < n && c < std::size_t(dim); ++c) {
-                        const double d = double(x[c][i]) - double(x[c][j]);
-                        d2 += d * d;
-                    }
-                    if (!(d2 < most2)) continue;
                     const std::size_t of = particle_of(j);
                     const double part = share(i, of) + (j < n ? share(j, i) : 0);
                     if (part != 0)
                         add_pair_energy(sum, part, cell, block, row, lane, double_record(p, i), double_record_of(j));
                 }
+            }
+        }
         return sum;
     }
     /// The exact sum of what `fill` writes, a stretch of particles at a time; compiled once for all that is summed.
@@ -953,7 +1032,8 @@ private:
         auto const& packed = species<0>().packed;
         using L = typename std::remove_cvref_t<decltype(packed)>::L;
         Record<dim, double, Set<(read_for_energy() & ParticlesOf<0>::fields)>> r;
-        for_each(r.fields, [&]<class F>(F f) {
+        clear(r); // what is read of the target only is in no record
+        for_each(r.fields & L::fields, [&]<class F>(F f) {
             T const* at = packed.data.data() + j * std::size_t(L::stride) + L::template offset<F>;
             if constexpr (F::rank == 0) r[f] = double(*at);
             else
@@ -1221,21 +1301,11 @@ private:
         else if constexpr (st.action == Action::pack) pack<st.species, st.fields>();
         else sweep<st.species, st.terms, ~Mask(0), ahead, rest>();
     }
-    /// f(first, last) over stretches of the padded columns of a species.
-    template <int s>
-    void stretches(auto const& f) const
-    {
-        const std::size_t n = species<s>().particles.size();
-        backend_.for_each((n + task - 1) / task, [&](std::size_t k) {
-            const std::size_t end = std::min(n, (k + 1) * task);
-            f(k * task, end);
-        });
-    }
     template <int s, Mask terms, Mask cleared>
     void pass()
     {
-        stretches<s>([&](std::size_t first, std::size_t last) __attribute__((flatten)) {
-            auto& p = species<s>().particles;
+        pass_over<s>([](System& me, std::size_t first, std::size_t last) __attribute__((flatten)) {
+            auto& p = me.template species<s>().particles;
             for (std::size_t i = first; i < last; i += std::size_t(width<V>)) {
                 for_each(M::template fields<cleared>(), [&](auto f) {
                     using X = Value<decltype(f), dim, V>;
@@ -1245,7 +1315,7 @@ private:
                         for (int c = 0; c < components<decltype(f), dim>; ++c) zero[c] = V(0);
                     p.template store_at<V>(f, i, zero);
                 });
-                detail_pass<terms>(p, i, std::make_index_sequence<std::size_t(M::terms)>{});
+                me.template detail_pass<terms>(p, i, std::make_index_sequence<std::size_t(M::terms)>{});
             }
         });
     }
@@ -1297,24 +1367,23 @@ private:
             std::same_as<decltype(M::template fields<copied>()), Fields<Position>> && dim == 2 && !mixed;
         if (x.packed.data.size() != records * stride) x.packed.data.assign(records * stride, PairT(1));
         PairT* const data = x.packed.data.data();
-        stretches<s>([&](std::size_t first, std::size_t end) {
-            constexpr std::size_t in_cache = 256; // records that stay in the first-level cache over all their fields
-            for (std::size_t last; first < end; first = last) {
-                last = std::min(end, first + in_cache);
-                if constexpr (stride == 2 && one_vector) {
-                    auto const& column = x.particles.column(position);
-                    pack_two(column[0].data(), column[1].data(), data, first, last);
-                    continue;
-                }
-                for_each(Set<with_tail<copied>()>{}, [&]<class F>(F f) {
-                    for (int c = 0; c < components<F, dim>; ++c) {
-                        T const* from = x.particles.source_of(f)[std::size_t(c)].data();
-                        using Kind = std::conditional_t<std::same_as<F, PositionTail>, F, Position>;
-                        pack_column<stride, Kind>(from, data + std::size_t(L::template offset<F> + c), first, last);
-                    }
-                });
+        pass_over<s>([](System& me, std::size_t first, std::size_t last) {
+            auto& of = me.template species<s>();
+            PairT* const to = of.packed.data.data();
+            if constexpr (stride == 2 && one_vector) {
+                auto const& column = of.particles.column(position);
+                pack_two(column[0].data(), column[1].data(), to, first, last);
+                return;
             }
+            for_each(Set<with_tail<copied>()>{}, [&]<class F>(F f) {
+                for (int c = 0; c < components<F, dim>; ++c) {
+                    T const* from = of.particles.source_of(f)[std::size_t(c)].data();
+                    using Kind = std::conditional_t<std::same_as<F, PositionTail>, F, Position>;
+                    pack_column<stride, Kind>(from, to + std::size_t(L::template offset<F> + c), first, last);
+                }
+            });
         });
+        run_waiting<s>();
         constexpr auto at = std::size_t(L::template offset<Position>);
         for (std::size_t f = 0; f < stride && n > 0; ++f) data[n * stride + f] = data[f];
         for (std::size_t c = 0; c < std::size_t(dim); ++c)
@@ -1386,7 +1455,7 @@ private:
     {
         auto& me = const_cast<System&>(*this); // records are no state
         me.template pack<s, copied>();
-        me.parts_.finish(s);
+        if constexpr (!alone) me.parts_.finish(s);
     }
     static Parts parts_of(Workers const& workers)
     {
@@ -1426,6 +1495,7 @@ private:
     template <int s, Mask terms, Mask allowed, Stage ahead = Stage{}, bool rest = false>
     void sweep()
     {
+        run_waiting();
         with_task<s, terms, allowed>([&](auto const& one) {
             const std::size_t cells = species<s>().bins.cells();
             if constexpr (!alone) {
@@ -1519,11 +1589,12 @@ private:
     {
         each_species([&](auto s) {
             if constexpr (decltype((Fields<>{} | ... | (M::template evolving<s()>() & Sets{})))::size > 0)
-                stretches<s()>([&](std::size_t first, std::size_t last) {
+                pass_over<s()>([s, dt](System& me, std::size_t first, std::size_t last) {
                     auto one = [&](auto set) {
                         for_each(M::template evolving<s()>() & set, [&](auto f) {
                             for (int c = 0; c < components<decltype(f), dim>; ++c)
-                                advance_field<from_start, s()>(species<s()>(), f, std::size_t(c), first, last, T(dt));
+                                advance_field<from_start, s()>(me.template species<s()>(), f, std::size_t(c), first, last,
+                                                               T(dt));
                         });
                     };
                     (one(Sets{}), ...);
@@ -1546,6 +1617,10 @@ private:
     {
         for (std::size_t i = first; i < last; i += std::size_t(width<V>))
             store(y + i, V(load<V>(y0 + i) + V(dt) * load<V>(rate + i)));
+    }
+    [[gnu::noinline]] static void copy_column(T const* from, T* to, std::size_t first, std::size_t last)
+    {
+        for (std::size_t i = first; i < last; i += std::size_t(width<V>)) store(to + i, load<V>(from + i));
     }
     template <int s>
     void remember_places()
@@ -1738,7 +1813,10 @@ private:
     LocalSkins<dim, species_count> skins_;
     [[no_unique_address]] Parts parts_;
     double wrap_after_ = std::numeric_limits<double>::infinity(); ///< way after which positions are wrapped anew [m]
-    bool have_lists_ = false, sorted_markers_ = false, kick_rates_ = false, lost_ = false;
+    bool have_lists_ = false, sorted_markers_ = false, kick_rates_ = false, lost_ = false, bounced_ = false;
+    std::array<std::vector<Pass>, std::size_t(species_count)> waiting_; ///< passes, in their order
+    bool puts_off_ = false;                                             ///< whether passes wait
+    Seen seen_;
     std::optional<Carry> carry_; ///< of sweeps for rates; to others what is kept of pairs is only shown
     double due_ = 0, moved_ = 0; ///< time since what is kept of pairs was kept, since the step was saved [s]
     bool trial_ = false;         ///< between save() and advance_saved()
