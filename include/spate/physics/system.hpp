@@ -509,7 +509,7 @@ public:
     template <bool with_acceleration = true>
     [[nodiscard]] Extremes extremes() const
     {
-        auto seen = room_to_see();
+        LaneExtremes<V, dim> seen;
         stretches<0>([&](std::size_t first, std::size_t last) { see<with_acceleration>(seen, first, last); });
         return extremes_in(seen);
     }
@@ -517,7 +517,7 @@ public:
     template <bool with_acceleration = true>
     void look()
     {
-        seen_ = room_to_see();
+        seen_ = {};
         pass_over<0>([](System& me, std::size_t first, std::size_t last) {
             me.template see<with_acceleration>(me.seen_, first, last);
         });
@@ -818,9 +818,46 @@ private:
         waiting_[std::size_t(s)].push_back(std::move(pass));
         if (!puts_off_) run_waiting<s>();
     }
+    /// The waiting passes over the particles that a sweep has just summed, but for packs that it shares with other cells.
+    template <int s>
+    void pass_over_cell(std::size_t cell)
+    {
+        constexpr auto W = std::size_t(width<V>);
+        auto const& x = species<s>();
+        const std::size_t n = x.particles.size();
+        std::size_t first = (std::size_t(x.bins.begin(cell)) + W - 1) / W * W;
+        const auto end = std::size_t(x.bins.end(cell)), last = end == n ? n : end / W * W;
+        for (; first < last; first += stretch)
+            for (auto const& pass : waiting_[std::size_t(s)]) pass(*this, first, std::min(last, first + stretch));
+    }
+    /// Those packs, once; then nothing waits.
+    template <int s>
+    void pass_over_shared_packs()
+    {
+        constexpr auto W = std::size_t(width<V>);
+        auto const& x = species<s>();
+        auto& waiting = waiting_[std::size_t(s)];
+        std::size_t done = 0;
+        for (std::size_t cell = 1; cell < x.bins.cells() && !waiting.empty(); ++cell) {
+            const auto border = std::size_t(x.bins.begin(cell)), first = border / W * W;
+            if (border == first || first < done) continue;
+            done = std::min(x.particles.size(), first + W);
+            for (auto const& pass : waiting) pass(*this, first, done);
+        }
+        waiting.clear();
+    }
+    /// A sweep after which nothing but passes came, with these.
+    void run_last_sweep()
+    {
+        if (last_sweep_ == nullptr) return;
+        auto const sweep = last_sweep_;
+        last_sweep_ = nullptr;
+        sweep(*this);
+    }
     template <int s>
     void run_waiting()
     {
+        run_last_sweep();
         auto& waiting = waiting_[std::size_t(s)];
         if (waiting.empty()) return;
         stretches<s>([&](std::size_t first, std::size_t last) {
@@ -830,6 +867,7 @@ private:
     }
     void run_waiting()
     {
+        run_last_sweep();
         each_species([&](auto s) { run_waiting<s()>(); });
     }
     /// f(first, last) over stretches of the padded columns of a species.
@@ -842,19 +880,18 @@ private:
             for (std::size_t first = k * task; first < end; first += stretch) f(first, std::min(end, first + stretch));
         });
     }
-    using Seen = std::vector<LaneExtremes<V, dim>>; ///< by task
-    [[nodiscard]] Seen room_to_see() const { return Seen((species<0>().particles.size() + task - 1) / task); }
     template <bool with_acceleration>
-    void see(Seen& seen, std::size_t first, std::size_t last) const
+    void see(LaneExtremes<V, dim>& seen, std::size_t first, std::size_t last) const
     {
-        seen[first / task].template add<with_acceleration>(species<0>().particles, first, last,
-                                                           M::template evolving<0>());
+        LaneExtremes<V, dim> mine;
+        mine.template add<with_acceleration>(species<0>().particles, first, last, M::template evolving<0>());
+        const std::lock_guard hold(seeing_);
+        seen |= mine;
     }
-    [[nodiscard]] Extremes extremes_in(Seen const& seen) const
+    [[nodiscard]] Extremes extremes_in(LaneExtremes<V, dim> const& seen) const
     {
         Extremes e;
-        const int lanes = int(std::min(species<0>().particles.size(), std::size_t(width<V>)));
-        for (auto const& of_task : seen) e |= of_task.over(lanes);
+        if (!species<0>().particles.empty()) e = seen.over_lanes();
         if constexpr (M::moves) e |= wall_extremes_here();
         return ranks().all(e, agree::Join{});
     }
@@ -1245,6 +1282,18 @@ private:
             return (false || ... || (((terms >> t) & 1) != 0 && decltype(keeps<X>())::size > 0));
         }(static_cast<typename M::Terms const*>(nullptr), std::make_index_sequence<std::size_t(M::terms)>{});
     }
+    /// A sweep that ends a plan may wait for the passes after it, but one that keeps something is of its time.
+    static constexpr bool may_wait(auto const& plan, int k)
+    {
+        return alone && k + 1 == plan.count && !walls_keep && !keeps_something(plan);
+    }
+    static constexpr bool walls_keep = []<class... X>(std::tuple<X...> const*) {
+        auto one = []<class Y>(Y const*) {
+            if constexpr (requires { Y::keeps_any; }) return Y::keeps_any;
+            else return false;
+        };
+        return (false || ... || one(static_cast<X const*>(nullptr)));
+    }(static_cast<typename M::Terms const*>(nullptr));
     template <class... F>
     void evaluate(Fields<F...>, [[maybe_unused]] Carry carry)
     {
@@ -1265,7 +1314,9 @@ private:
                       "spate: terms wait for each other's fields; let one of them write a field of its own");
         [&]<std::size_t... k>(std::index_sequence<k...>)
         {
-            (stage<plan.stage[k], ahead_in(plan, int(k)), is_rest(plan, int(k))>(), ...);
+            (stage<plan.stage[k], ahead_in(plan, int(k)), is_rest(plan, int(k)),
+                   may_wait(plan, int(k))>(),
+             ...);
         }
         (std::make_index_sequence<std::size_t(plan.count)>{});
         if constexpr (!alone) parts_.finish(); // what no cell here has waited for
@@ -1294,12 +1345,23 @@ private:
             if (next_sweep(plan, n) == k) return true;
         return false;
     }
-    template <Stage st, Stage ahead, bool rest>
+    template <Stage st, Stage ahead, bool rest, bool may_wait>
     void stage()
     {
         if constexpr (st.action == Action::pass) pass<st.species, st.terms, st.fields>();
         else if constexpr (st.action == Action::pack) pack<st.species, st.fields>();
-        else sweep<st.species, st.terms, ~Mask(0), ahead, rest>();
+        else {
+            run_waiting();
+            if constexpr (may_wait)
+                if (puts_off_) {
+                    last_sweep_ = [](System& me) {
+                        me.template sweep<st.species, st.terms>();
+                        me.template pass_over_shared_packs<st.species>();
+                    };
+                    return;
+                }
+            sweep<st.species, st.terms, ~Mask(0), ahead, rest>();
+        }
     }
     template <int s, Mask terms, Mask cleared>
     void pass()
@@ -1356,6 +1418,7 @@ private:
     template <int s, Mask copied>
     void pack()
     {
+        if (last_sweep_ != nullptr) run_waiting(); // it reads the records of before
         auto& x = species<s>();
         using L = typename std::remove_cvref_t<decltype(x.packed)>::L;
         auto const& images = x.bins.images();
@@ -1479,8 +1542,11 @@ private:
             using Target = Set<in_pairs(M::template fields<read_of_target(terms, s)>())>;
             constexpr Mask itself = (allowed >> s) & 1 ? terms : Mask(0);
             auto one = [&](std::size_t cell) {
+                const bool passes_follow = !waiting_[std::size_t(s)].empty();
                 sweep_cell<PairV, itself, Sums, Target>(physics_.interaction, terms_, x.particles, x.bins, cell,
-                                                        source...);
+                                                        passes_follow, source...);
+                if constexpr (alone)
+                    if (passes_follow) pass_over_cell<s>(cell);
             };
             // Alone at once: so g++ takes a scene's constants along into the sweep.
             if constexpr (alone) backend_.for_each(x.bins.cells(), one);
@@ -1492,10 +1558,9 @@ private:
         else with();
     }
     /// \tparam ahead  a later sweep of the mobile particles, none of whose terms is none; \tparam rest  some have run ahead
-    template <int s, Mask terms, Mask allowed, Stage ahead = Stage{}, bool rest = false>
+    template <int s, Mask terms, Mask allowed = ~Mask(0), Stage ahead = Stage{}, bool rest = false>
     void sweep()
     {
-        run_waiting();
         with_task<s, terms, allowed>([&](auto const& one) {
             const std::size_t cells = species<s>().bins.cells();
             if constexpr (!alone) {
@@ -1816,7 +1881,9 @@ private:
     bool have_lists_ = false, sorted_markers_ = false, kick_rates_ = false, lost_ = false, bounced_ = false;
     std::array<std::vector<Pass>, std::size_t(species_count)> waiting_; ///< passes, in their order
     bool puts_off_ = false;                                             ///< whether passes wait
-    Seen seen_;
+    void (*last_sweep_)(System&) = nullptr;                             ///< that waits before them
+    LaneExtremes<V, dim> seen_;
+    static inline std::mutex seeing_;
     std::optional<Carry> carry_; ///< of sweeps for rates; to others what is kept of pairs is only shown
     double due_ = 0, moved_ = 0; ///< time since what is kept of pairs was kept, since the step was saved [s]
     bool trial_ = false;         ///< between save() and advance_saved()
