@@ -185,9 +185,10 @@ template <class V, Mask terms, class Sums, class Target, class I, class Tuple, c
     auto const& lists = std::get<0>(std::tie(source...)).lists.of_cell(cell);
     const std::size_t blocks = lists.begin.size() - 1;
     const int targets = at.end(cell) - first;
-    auto run = [&]<bool in_order>(std::bool_constant<in_order>) __attribute__((always_inline))
+    auto run = [&]<bool in_order>(std::bool_constant<in_order>, std::size_t block, std::size_t end)
+        __attribute__((always_inline))
     {
-        for (std::size_t block = 0; block < blocks; ++block) {
+        for (; block < end; ++block) {
             std::int32_t const* target = nullptr;
             std::int32_t numbers[std::size_t(width<V>)];
             if constexpr (!in_order) {
@@ -203,8 +204,8 @@ template <class V, Mask terms, class Sums, class Target, class I, class Tuple, c
                 if (passes_follow) particles.ask_for(std::size_t(at_first));
             const auto ri = [&]() __attribute__((always_inline))
             {
-                if constexpr (!in_order) return particles.template record_of<V>(Target{}, first, target);
-                else return detail::targets_at<V, I, Tuple, Target>(particles, at_first, source...);
+                if constexpr (in_order) return detail::targets_at<V, I, Tuple, Target>(particles, at_first, source...);
+                else return particles.template record_of<V>(Target{}, first, target);
             }
             ();
             Record<P::dim, V, Sums> sums;
@@ -215,17 +216,17 @@ template <class V, Mask terms, class Sums, class Target, class I, class Tuple, c
             const int lanes = std::min(targets - int(block) * width<V>, width<V>);
             for_each(
                 Sums{}, [&](auto f) __attribute__((always_inline)) {
-                    if constexpr (!in_order) particles.template store_of<V>(f, first, target, sums[f], lanes);
-                    else if (lanes == width<V>) particles.template store_at<V>(f, std::size_t(at_first), sums[f]);
-                    else particles.template store_at<V>(f, std::size_t(at_first), sums[f], lanes);
+                    if constexpr (in_order) particles.template store_at<V>(f, std::size_t(at_first), sums[f]);
+                    else particles.template store_of<V>(f, first, target, sums[f], lanes);
                 });
         }
     };
-    // One loop for each, where lists may be short: then what a block costs beside its pairs counts.
-    if constexpr (short_lists<I>) {
-        if (lists.in_order) return run(std::true_type{});
-    }
-    run(std::false_type{});
+    // A loop for whole blocks in order, where lists may be short: then what a block costs beside its pairs counts. Beside the
+    // last targets are those of another task.
+    std::size_t whole = 0;
+    if constexpr (short_lists<I>)
+        if (lists.in_order) run(std::true_type{}, 0, whole = std::size_t(targets / width<V>));
+    run(std::false_type{}, whole, blocks);
 }
 
 } // namespace spate

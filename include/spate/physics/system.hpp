@@ -44,8 +44,9 @@ public:
     static constexpr bool mixed = !std::same_as<PairT, T>;
     static constexpr int dim = M::dim;
     static constexpr int species_count = M::species;
-    static constexpr std::size_t task = 2048;   ///< particles in a task of a pass; a multiple of every pack
-    static constexpr std::size_t stretch = 512; ///< of those, how many stay in the first-level cache over several passes
+    static constexpr std::size_t task = 2048; ///< particles in a task of a pass; a multiple of every pack
+    static constexpr std::size_t stretch =
+        512; ///< of those, how many stay in the first-level cache over several passes
 
     /// Whether walls reflect what has gone through them.
     static constexpr bool reflects = requires(B const b, Vec<dim, double> x) { b.reflect(x, x, 0.0); };
@@ -1314,9 +1315,7 @@ private:
                       "spate: terms wait for each other's fields; let one of them write a field of its own");
         [&]<std::size_t... k>(std::index_sequence<k...>)
         {
-            (stage<plan.stage[k], ahead_in(plan, int(k)), is_rest(plan, int(k)),
-                   may_wait(plan, int(k))>(),
-             ...);
+            (stage<plan.stage[k], ahead_in(plan, int(k)), is_rest(plan, int(k)), may_wait(plan, int(k))>(), ...);
         }
         (std::make_index_sequence<std::size_t(plan.count)>{});
         if constexpr (!alone) parts_.finish(); // what no cell here has waited for
@@ -1366,7 +1365,7 @@ private:
     template <int s, Mask terms, Mask cleared>
     void pass()
     {
-        pass_over<s>([](System& me, std::size_t first, std::size_t last) __attribute__((flatten)) {
+        pass_over<s>([](System & me, std::size_t first, std::size_t last) __attribute__((flatten)) {
             auto& p = me.template species<s>().particles;
             for (std::size_t i = first; i < last; i += std::size_t(width<V>)) {
                 for_each(M::template fields<cleared>(), [&](auto f) {
@@ -1658,8 +1657,8 @@ private:
                     auto one = [&](auto set) {
                         for_each(M::template evolving<s()>() & set, [&](auto f) {
                             for (int c = 0; c < components<decltype(f), dim>; ++c)
-                                advance_field<from_start, s()>(me.template species<s()>(), f, std::size_t(c), first, last,
-                                                               T(dt));
+                                advance_field<from_start, s()>(me.template species<s()>(), f, std::size_t(c), first,
+                                                               last, T(dt));
                         });
                     };
                     (one(Sets{}), ...);
