@@ -900,8 +900,9 @@ private:
     {
         auto& p = species<0>().particles;
         constexpr auto W = std::size_t(width<V>);
+        const auto mirrors = boundary_.template mirrors<V>();
         for (std::size_t k = first; k < last; k += W) {
-            if (!boundary_.any_beyond(p.template load_at<V>(position, k), radius_at<V>(k))) continue;
+            if (!mirrors.any_beyond(p.template load_at<V>(position, k), radius_at<V>(k))) continue;
             for (std::size_t i = k; i < std::min(last, k + W); ++i) {
                 Vec<dim, double> x = p.at(position, i), v = p.at(velocity, i);
                 const auto bounce = boundary_.reflect(x, v, radius_at<double>(i));
