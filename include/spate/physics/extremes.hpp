@@ -83,8 +83,10 @@ struct LaneExtremes {
         if (first == last) return;
         std::int32_t at[W]; // the last again: neither padding nor what is another task's has a say
         for (std::size_t l = 0; l < W; ++l) at[l] = std::int32_t(std::min(l, last - first - 1));
-        add<with_acceleration, Q>(
-            evolving, [&](auto f) { return p.template record_of<V>(Fields{f}, std::int32_t(first), at)[f]; });
+        add<with_acceleration, Q>(evolving, [&]<class F>(F f) {
+            if constexpr (Set<Q::uniform>::template contains<F>) return p.template load_at<V>(f, first);
+            else return p.template record_of<V>(Fields{f}, std::int32_t(first), at)[f];
+        });
     }
     void operator|=(LaneExtremes const& b)
     {
