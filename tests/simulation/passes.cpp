@@ -74,7 +74,9 @@ std::uint64_t after(auto s, I integrator, double dt, bool put_off)
         EXPECT_EQ(seen.most_velocity, now.most_velocity);
         EXPECT_EQ(seen.poison, 0);
     }
-    if constexpr (reflects) EXPECT_FALSE(s.lost());
+    if constexpr (reflects) {
+        EXPECT_FALSE(s.lost());
+    }
     return s.state_hash();
 }
 
