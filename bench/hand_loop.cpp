@@ -57,7 +57,7 @@ struct Engine {
                                                    nullptr};
         for (std::size_t cell = 0; cell < fluid.bins.cells(); ++cell)
             sweep_cell<V, terms, Set<sums>, Set<target>>(s.physics().interaction, s.terms(), fluid.particles,
-                                                         fluid.bins, cell, source);
+                                                         fluid.bins, cell, false, source);
     }
 };
 

@@ -80,7 +80,7 @@ private:
         using Sums = decltype(M::template fields<Sweeps<M>::added(terms)>());
         using Target = Set<System::in_pairs(M::template fields<Sweeps<M>::read_of_target(terms, s)>())>;
         for (std::size_t cell = 0; cell < x.bins.cells(); ++cell)
-            sweep_cell<V, terms, Sums, Target>(s_.physics().interaction, s_.terms(), x.particles, x.bins, cell,
+            sweep_cell<V, terms, Sums, Target>(s_.physics().interaction, s_.terms(), x.particles, x.bins, cell, false,
                                                source...);
     }
 

@@ -161,7 +161,7 @@ public:
     std::size_t add(Point const& x, Point const& v = {})
     {
         system_.set_aside();
-        prepared_ = false;
+        prepared_ = looked_ = false;
         return append(system_.mobile(), x, v);
     }
     /// Room for particles that are to enter.
@@ -199,6 +199,7 @@ public:
         std::vector<char> is(p.size(), 0);
         std::fill(is.begin() + std::ptrdiff_t(first), is.end(), char(1));
         const Amount<dim> a = amount_of(is, false);
+        looked_ = false;
         system_.resized();
         exchanged_.entered += a, exchanged_.moment += a.mass * time_;
         return a;
@@ -215,6 +216,7 @@ public:
         std::vector<std::int32_t> stay;
         for (std::size_t i = 0; i < is.size(); ++i)
             if (is[i] == 0) stay.push_back(std::int32_t(i));
+        looked_ = false;
         system_.keep(stay);
         exchanged_.left += a, exchanged_.moment -= a.mass * time_;
         return a;
@@ -231,6 +233,7 @@ public:
             check_particles();
             if (step_ == 0) check_places();
         });
+        looked_ = false;
         system_.use(make_grid());
         system_.resized();
         if constexpr (!Engine::alone) system_.distribute(step_ == 0);
@@ -284,7 +287,8 @@ public:
         const auto wall = std::chrono::steady_clock::now();
         const std::clock_t cpu = std::clock();
         if constexpr (!Engine::alone) system_.wander(step_);
-        Extremes e = system_.template extremes<needs_acceleration>();
+        Extremes e = looked_ ? system_.seen() : system_.template extremes<needs_acceleration>();
+        looked_ = false;
         look(e);
         choose_dt(o, e);
         if constexpr (Engine::M::moves) e |= move_markers(dt_);
@@ -305,8 +309,13 @@ public:
         }
         system_.template phase<When::before_step>(step_, [] {}); // the lists are those of this step
         move_contacts();
+        system_.put_off();
         integrator_.step(system_, dt_);
-        if constexpr (Engine::reflects) reflect();
+        if constexpr (Engine::reflects && !requires { I::reflects; }) system_.reflect();
+        if constexpr (!Engine::M::template has_phase<When::after_step>)
+            system_.template look<needs_acceleration>(), looked_ = true; // along with what waits
+        system_.finish();
+        if constexpr (Engine::reflects) look_at_bounces();
         after_step();
         time_ += dt_;
         ++step_;
@@ -335,9 +344,17 @@ public:
     [[nodiscard]] RunReport const& report() const { return report_; }
     P const& physics() const { return system_.physics(); }
     I const& integrator() const { return integrator_; }
-    Engine& system() { return system_; }
+    Engine& system()
+    {
+        looked_ = false;
+        return system_;
+    }
     Engine const& system() const { return system_; }
-    auto& particles() { return system_.mobile(); }
+    auto& particles()
+    {
+        looked_ = false;
+        return system_.mobile();
+    }
     auto const& particles() const { return system_.mobile(); }
     Vec<dim, double> const& gravity() const { return g_; }
     /// What bounds the step; known from the first step on.
@@ -347,6 +364,7 @@ public:
     {
         if (stopped_) return;
         make_lists_current();
+        looked_ = false;
         system_.refresh();
     }
     /// Rebuilds the neighbour lists if the positions of now need it: the next step would begin with the same rebuild.
@@ -469,7 +487,7 @@ public:
         hold_bodies();
         if constexpr (Engine::M::moves) system_.boundary().move_to(time_);
         least_radius_ = least_radius();
-        prepared_ = true, stopped_ = false, resumed_ = true;
+        prepared_ = true, stopped_ = false, resumed_ = true, looked_ = false;
     }
     /// The bins of lists beyond the range, in a box.
     [[gnu::cold]] [[nodiscard]] Grid<dim> make_grid(Box<dim> const& box) const
@@ -708,11 +726,10 @@ private:
                 if (near.contains(p.at(position, i))) begin(p, i, box, start);
         }
     }
-    /// Unless the integrator does it itself, once positions have drifted.
-    void reflect()
+    void look_at_bounces()
     {
-        if constexpr (!requires { I::reflects; })
-            if (system_.reflect()) system_.forget_kick_rates();
+        if constexpr (!requires { I::reflects; }) // else they are those of now
+            if (system_.bounced()) system_.forget_kick_rates();
         if (system_.lost()) together(system_.ranks(), [&] { stop_lost(); });
     }
     /// Walls of contact that move are, in this step, where they are when the integrator takes its last rates.
@@ -814,6 +831,7 @@ private:
     }
     void rebuild(bool wide = false)
     {
+        looked_ = false;
         try {
             system_.rebuild(wide);
         }
@@ -1083,6 +1101,7 @@ private:
     {
         if (kept_dt_.empty() || kept_rebuild_ != system_.rebuilds()) return {};
         const double time = time_;
+        looked_ = false;
         Engine failed = system_;
         Origin found;
         try {
@@ -1106,7 +1125,8 @@ private:
             integrator_.step(again, kept_dt_[k]);
             system_ = static_cast<Engine&&>(again);
             if (again.found()) return again.origin();
-            if constexpr (Engine::reflects) reflect();
+            if constexpr (Engine::reflects && !requires { I::reflects; }) system_.reflect();
+            if constexpr (Engine::reflects) look_at_bounces();
             system_.template phase<When::after_step>(step, [] {});
             time_ += kept_dt_[k];
         }
@@ -1190,6 +1210,7 @@ private:
     std::string_view criterion_ = "none";
     std::int64_t step_ = 0;
     bool prepared_ = false, warned_ = false, stopped_ = false, resumed_ = false;
+    bool looked_ = false; ///< the last step has seen the extremes of the state of now
     bool told_way_ = false;
     double least_radius_ = std::numeric_limits<double>::infinity(); ///< [m]
     std::vector<double> kept_dt_;                                   ///< of the steps since the kept state [s]

@@ -96,13 +96,25 @@ public:
         (std::make_index_sequence<std::tuple_size_v<Parts>>{});
     }
 
-    /// Whether any lane is through a plane that reflects.
+    /// The planes that reflect, in registers to ask for many particles.
     template <class V>
-    [[nodiscard, gnu::always_inline]] bool any_beyond(Vec<Dim, V> const& x, V const& r) const
+    struct Mirrors {
+        Vec<Dim, V> least, most;
+
+        /// Whether any lane is through one.
+        [[nodiscard, gnu::always_inline]] bool any_beyond(Vec<Dim, V> const& x, V const& r) const
+        {
+            auto beyond = (x[0] - r < least[0]) | (x[0] + r > most[0]);
+            for (int c = 1; c < Dim; ++c) beyond = beyond | (x[c] - r < least[c]) | (x[c] + r > most[c]);
+            return spate::any(beyond);
+        }
+    };
+    template <class V>
+    [[nodiscard]] Mirrors<V> mirrors() const
     {
-        auto beyond = (x[0] - r < V(least(0, 0))) | (x[0] + r > V(most(0, 0)));
-        for (int c = 1; c < Dim; ++c) beyond = beyond | (x[c] - r < V(least(c, 0))) | (x[c] + r > V(most(c, 0)));
-        return spate::any(beyond);
+        Mirrors<V> m;
+        for (int c = 0; c < Dim; ++c) m.least[c] = V(least(c, 0)), m.most[c] = V(most(c, 0));
+        return m;
     }
     enum class Bounce { none, some, too_many };
     /// x <- 2 wall - x and the outward velocity inwards, until x is inside.

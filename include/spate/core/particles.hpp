@@ -188,6 +188,14 @@ public:
         else
             for (int c = 0; c < components<G, Dim>; ++c) one(a[c].data() + first, v[c]);
     }
+    /// Brings a line of each column into the cache.
+    [[gnu::always_inline]] void ask_for(std::size_t i) const
+    {
+        for_each(
+            fields, [&](auto f) __attribute__((always_inline)) {
+                for (auto const& a : column(f)) __builtin_prefetch(a.data() + i);
+            });
+    }
     template <class V>
     [[gnu::always_inline]] auto uniforms() const
     {

@@ -58,26 +58,74 @@ struct Extremes {
     }
 };
 
-/// Of the particles first to last.
-/// \tparam V  pack    \tparam with_acceleration  whether anyone asks for max |a|    \param evolving  fields that must be finite
-template <class V, bool with_acceleration, class Q>
-[[nodiscard]] Extremes extremes_of(Q const& p, std::size_t first, std::size_t last, auto evolving)
-{
-    constexpr int dim = Q::dim;
+/// The same lane by lane, as they are gathered.
+template <class V, int dim>
+struct LaneExtremes {
     using T = scalar_t<V>;
-    Vec<dim, V> least_x{}, most_x{}, least_v{}, most_v{};
-    for (int c = 0; c < dim; ++c) {
-        least_x[c] = least_v[c] = V(std::numeric_limits<T>::max());
-        most_x[c] = most_v[c] = V(std::numeric_limits<T>::lowest());
+    static constexpr T far = std::numeric_limits<T>::max();
+    Vec<dim, V> least_x = all(far), most_x = all(-far), least_v = all(far), most_v = all(-far);
+    V v2{0}, a2{0}, x2{0}, least_density{far}, most_density{0}, poison{0};
+
+    static Vec<dim, V> all(T value)
+    {
+        Vec<dim, V> a;
+        for (int c = 0; c < dim; ++c) a[c] = V(value);
+        return a;
     }
-    V v2(0), a2(0), x2(0), least(std::numeric_limits<T>::max()), most(0), poison(0);
-    constexpr auto W = std::size_t(width<V>);
-    const int lanes = int(std::min(last, W)); // padding has no say: what it holds depends on who is last
-    for (std::size_t k = first; k < last; k += W) {
-        const std::size_t i = std::min(k, last - std::size_t(lanes)); // the last pack overlaps the one before
-        const auto x = p.template load_at<V>(position, i);
-        const auto v = p.template load_at<V>(velocity, i);
-        const auto moved = x - p.template load_at<V>(build_position, i);
+    /// Particles first to last.
+    /// \tparam with_acceleration  whether anyone asks for max |a|    \param evolving  fields that must be finite
+    template <bool with_acceleration, class Q>
+    void add(Q const& p, std::size_t first, std::size_t last, auto evolving)
+    {
+        constexpr auto W = std::size_t(width<V>);
+        for (; first + W <= last; first += W)
+            add<with_acceleration, Q>(evolving, [&](auto f) { return p.template load_at<V>(f, first); });
+        if (first == last) return;
+        std::int32_t at[W]; // the last again: neither padding nor what is another task's has a say
+        for (std::size_t l = 0; l < W; ++l) at[l] = std::int32_t(std::min(l, last - first - 1));
+        add<with_acceleration, Q>(evolving, [&]<class F>(F f) {
+            if constexpr (Set<Q::uniform>::template contains<F>) return p.template load_at<V>(f, first);
+            else return p.template record_of<V>(Fields{f}, std::int32_t(first), at)[f];
+        });
+    }
+    void operator|=(LaneExtremes const& b)
+    {
+        x2 = max(b.x2, x2), v2 = max(b.v2, v2), a2 = max(b.a2, a2);
+        for (int c = 0; c < dim; ++c) {
+            least_x[c] = min(b.least_x[c], least_x[c]), most_x[c] = max(b.most_x[c], most_x[c]);
+            least_v[c] = min(b.least_v[c], least_v[c]), most_v[c] = max(b.most_v[c], most_v[c]);
+        }
+        least_density = min(b.least_density, least_density), most_density = max(b.most_density, most_density);
+        poison += b.poison;
+    }
+    /// Of all lanes.
+    [[nodiscard]] Extremes over_lanes() const
+    {
+        Extremes e;
+        e.speed = std::sqrt(double(largest(v2)));
+        e.acceleration = std::sqrt(double(largest(a2)));
+        e.moved = std::sqrt(double(largest(x2)));
+        for (int c = 0; c < dim; ++c) {
+            const auto k = std::size_t(c);
+            e.least_move[k] = -double(largest(V(V(0) - least_x[c])));
+            e.most_move[k] = double(largest(most_x[c]));
+            e.least_velocity[k] = -double(largest(V(V(0) - least_v[c])));
+            e.most_velocity[k] = double(largest(most_v[c]));
+        }
+        e.least_density = -double(largest(V(V(0) - least_density)));
+        e.most_density = double(largest(most_density));
+        alignas(64) T lane[std::size_t(width<V>)];
+        store(lane, poison);
+        for (const T of_lane : lane) e.poison += double(of_lane);
+        return e;
+    }
+
+private:
+    /// One pack. \param of  field -> value
+    template <bool with_acceleration, class Q>
+    [[gnu::always_inline]] void add(auto evolving, auto const& of)
+    {
+        const auto v = of(velocity), moved = of(position) - of(build_position);
         const V d2 = moved.squaredNorm(), s2 = v.squaredNorm();
         x2 = max(d2, x2), v2 = max(s2, v2);
         for (int c = 0; c < dim; ++c) {
@@ -86,36 +134,19 @@ template <class V, bool with_acceleration, class Q>
         }
         poison += V(0) * (d2 + s2);
         if constexpr (with_acceleration && Q::template has<Acceleration>) {
-            const V n2 = p.template load_at<V>(acceleration, i).squaredNorm();
+            const V n2 = of(acceleration).squaredNorm();
             a2 = max(n2, a2), poison += V(0) * n2;
         }
         for_each(evolving - Fields{position, velocity, density}, [&](auto f) {
-            const auto value = p.template load_at<V>(f, i);
+            const auto value = of(f);
             if constexpr (decltype(f)::rank == 0) poison += V(0) * value;
             else poison += V(0) * value.squaredNorm();
         });
         if constexpr (Q::template has<Density>) {
-            const V rho = p.template load_at<V>(density, i);
-            least = min(rho, least), most = max(rho, most), poison += V(0) * rho;
+            const V rho = of(density);
+            least_density = min(rho, least_density), most_density = max(rho, most_density), poison += V(0) * rho;
         }
     }
-    Extremes e;
-    e.speed = std::sqrt(double(largest(v2, lanes)));
-    e.acceleration = std::sqrt(double(largest(a2, lanes)));
-    e.moved = std::sqrt(double(largest(x2, lanes)));
-    for (int c = 0; c < dim; ++c) {
-        const auto k = std::size_t(c);
-        e.least_move[k] = -double(largest(V(V(0) - least_x[c]), lanes)),
-        e.most_move[k] = double(largest(most_x[c], lanes));
-        e.least_velocity[k] = -double(largest(V(V(0) - least_v[c]), lanes)),
-        e.most_velocity[k] = double(largest(most_v[c], lanes));
-    }
-    e.least_density = -double(largest(V(V(0) - least), lanes));
-    e.most_density = double(largest(most, lanes));
-    alignas(64) T lane[std::size_t(width<V>)];
-    store(lane, poison);
-    for (int k = 0; k < lanes; ++k) e.poison += double(lane[k]);
-    return e;
-}
+};
 
 } // namespace spate

@@ -221,6 +221,13 @@ public:
                   "spate: a term reads a field that nothing provides; add the term that writes it to the model (for "
                   "pressure: an equation of state such as Tait)");
 
+    /// Whether any term runs in a phase.
+    template <When w>
+    static constexpr bool has_phase = [] {
+        bool any = false;
+        for (auto const& facts : planner.term) any = any || facts.when == w;
+        return any;
+    }();
     /// Fields of species s that some term makes in an evaluation.
     template <int s>
     static constexpr Mask made = planner.made(s, When::evaluation);

@@ -67,8 +67,8 @@ template <class V, class I, class Tuple, class Ri, class Ui, class A, class Src>
     const auto end = std::size_t(lists.begin[block + 1]) * std::size_t(width<V>);
     // The next blocks' first sight of a row of bins is a miss. In bins that are fine the lanes share lines, so that one lane
     // asks for all; in others each asks for its own.
-    constexpr bool each_lane = short_lists<I>;
-    constexpr std::size_t ahead = (each_lane ? 16 : 48) * std::size_t(width<V>);
+    constexpr bool each_lane = short_lists<I> && I::dim > 2;
+    constexpr std::size_t ahead = (short_lists<I> ? 16 : 48) * std::size_t(width<V>);
     const std::size_t last = lists.index.size() - std::size_t(each_lane ? width<V> : 1);
     using Memory = std::conditional_t<Src::Kept::size == 0, NoMemory, BlockMemory<I::dim, V, typename Src::Kept>>;
     auto memory = [&]() __attribute__((always_inline))
@@ -79,6 +79,7 @@ template <class V, class I, class Tuple, class Ri, class Ui, class A, class Src>
     ();
     A mine = sums; // a copy in registers: g++ would store sums to the stack with each pack
     for (auto at = std::size_t(lists.begin[block]) * std::size_t(width<V>); at != end; at += std::size_t(width<V>)) {
+        if constexpr (short_lists<I>) __builtin_prefetch(index + at + 4 * ahead); // one cell's are soon at their end
         std::int32_t const* const later = index + std::min(at + ahead, last);
         for (int l = 0; l < (each_lane ? width<V> : 1); ++l)
             for (int f = 0; f < (each_lane ? L::stride : 1); f += 64 / int(sizeof(scalar_t<V>)))
@@ -171,9 +172,11 @@ template <Mask terms, class V, class I, class Ri, class Ui, class A, class... T,
 /// \tparam Sums     the fields that the terms add to
 /// \tparam Target   the fields that they read of the target
 /// \tparam V        what pairs compute with
+/// \param passes_follow  over the same particles: their columns are asked for in time
 template <class V, Mask terms, class Sums, class Target, class I, class Tuple, class P, class... Src>
 [[gnu::flatten, gnu::noinline]] void sweep_cell(I const& of_scene, Tuple const& terms_of_scene, P& particles,
-                                                Binning<P::dim> const& at, std::size_t cell, Src const&... source)
+                                                Binning<P::dim> const& at, std::size_t cell, bool passes_follow,
+                                                Src const&... source)
 {
     const I interaction = of_scene; // copies in this frame: parameters become invariants in registers
     const Tuple all = terms_of_scene;
@@ -182,9 +185,10 @@ template <class V, Mask terms, class Sums, class Target, class I, class Tuple, c
     auto const& lists = std::get<0>(std::tie(source...)).lists.of_cell(cell);
     const std::size_t blocks = lists.begin.size() - 1;
     const int targets = at.end(cell) - first;
-    auto run = [&]<bool in_order>(std::bool_constant<in_order>) __attribute__((always_inline))
+    auto run = [&]<bool in_order>(std::bool_constant<in_order>, std::size_t block, std::size_t end)
+        __attribute__((always_inline))
     {
-        for (std::size_t block = 0; block < blocks; ++block) {
+        for (; block < end; ++block) {
             std::int32_t const* target = nullptr;
             std::int32_t numbers[std::size_t(width<V>)];
             if constexpr (!in_order) {
@@ -196,6 +200,8 @@ template <class V, Mask terms, class Sums, class Target, class I, class Tuple, c
                 else target = lists.target.data() + block * std::size_t(width<V>);
             }
             const std::int32_t at_first = first + (in_order ? std::int32_t(block) * width<V> : 0);
+            if constexpr (in_order)
+                if (passes_follow) particles.ask_for(std::size_t(at_first));
             const auto ri = [&]() __attribute__((always_inline))
             {
                 if constexpr (in_order) return detail::targets_at<V, I, Tuple, Target>(particles, at_first, source...);
@@ -210,17 +216,17 @@ template <class V, Mask terms, class Sums, class Target, class I, class Tuple, c
             const int lanes = std::min(targets - int(block) * width<V>, width<V>);
             for_each(
                 Sums{}, [&](auto f) __attribute__((always_inline)) {
-                    if constexpr (!in_order) particles.template store_of<V>(f, first, target, sums[f], lanes);
-                    else if (lanes == width<V>) particles.template store_at<V>(f, std::size_t(at_first), sums[f]);
-                    else particles.template store_at<V>(f, std::size_t(at_first), sums[f], lanes);
+                    if constexpr (in_order) particles.template store_at<V>(f, std::size_t(at_first), sums[f]);
+                    else particles.template store_of<V>(f, first, target, sums[f], lanes);
                 });
         }
     };
-    // One loop for each, where lists may be short: then what a block costs beside its pairs counts.
-    if constexpr (short_lists<I>) {
-        if (lists.in_order) return run(std::true_type{});
-    }
-    run(std::false_type{});
+    // A loop for whole blocks in order, where lists may be short: then what a block costs beside its pairs counts. Beside the
+    // last targets are those of another task.
+    std::size_t whole = 0;
+    if constexpr (short_lists<I>)
+        if (lists.in_order) run(std::true_type{}, 0, whole = std::size_t(targets / width<V>));
+    run(std::false_type{}, whole, blocks);
 }
 
 } // namespace spate

@@ -14,6 +14,8 @@
 #include "spate/physics/sweep.hpp"
 
 #include <atomic>
+#include <bit>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -44,6 +46,8 @@ public:
     static constexpr int dim = M::dim;
     static constexpr int species_count = M::species;
     static constexpr std::size_t task = 2048; ///< particles in a task of a pass; a multiple of every pack
+    static constexpr std::size_t stretch =
+        512; ///< of those, how many stay in the first-level cache over several passes
 
     /// Whether walls reflect what has gone through them.
     static constexpr bool reflects = requires(B const b, Vec<dim, double> x) { b.reflect(x, x, 0.0); };
@@ -98,7 +102,11 @@ public:
     {
         return std::get<s>(species_);
     }
-    auto& mobile() { return species<0>().particles; }
+    auto& mobile()
+    {
+        if (puts_off_) finish();
+        return species<0>().particles;
+    }
     auto const& mobile() const { return species<0>().particles; }
     /// f(integral constant s) for each species.
     void each_species(auto&& f) const
@@ -361,6 +369,17 @@ public:
         each_species([&](auto s) { swap_with_built(species<s()>().particles); });
     }
 
+    // ---- passes
+    /// Passes over particles, which look at nothing beyond a particle, wait from now on until something does, or somebody
+    /// asks for mobile(): then each stretch of particles goes through all of them while it is in the cache.
+    void put_off() { puts_off_ = true; }
+    /// Nothing waits any longer.
+    void finish()
+    {
+        puts_off_ = false;
+        run_waiting();
+    }
+
     // ---- rates
     /// Brings the rates of the asked fields up to date in every species that has them. What terms keep of pairs comes along
     /// to where the positions are; but not between save() and advance_saved(), where a state is only tried.
@@ -445,11 +464,14 @@ public:
     {
         if constexpr (M::floats) boundary_.bodies().keep();
         each_species([&](auto s) {
-            auto& x = species<s()>();
-            for_each(M::template evolving<s()>(), [&](auto f) {
-                for (std::size_t c = 0; c < std::size(x.particles.column(f)); ++c)
-                    x.start.column(f)[c] = x.particles.column(f)[c];
-            });
+            if constexpr (decltype(M::template evolving<s()>())::size > 0)
+                pass_over<s()>([s](System& me, std::size_t first, std::size_t last) {
+                    auto& x = me.template species<s()>();
+                    for_each(M::template evolving<s()>(), [&](auto f) {
+                        for (std::size_t c = 0; c < std::size(x.particles.column(f)); ++c)
+                            copy_column(x.particles.column(f)[c].data(), x.start.column(f)[c].data(), first, last);
+                    });
+                });
         });
     }
     /// The evolving fields as they were when save() or keep() was called, what derives from them zero; false if the particles
@@ -489,19 +511,20 @@ public:
     template <bool with_acceleration = true>
     [[nodiscard]] Extremes extremes() const
     {
-        Extremes e;
-        std::mutex lock;
-        auto const& p = mobile();
-        const std::size_t n = p.size();
-        backend_.for_each((n + task - 1) / task, [&](std::size_t k) {
-            const Extremes mine =
-                extremes_of<V, with_acceleration>(p, k * task, std::min(n, (k + 1) * task), M::template evolving<0>());
-            const std::lock_guard hold(lock);
-            e |= mine;
-        });
-        if constexpr (M::moves) e |= wall_extremes_here();
-        return ranks().all(e, agree::Join{});
+        LaneExtremes<V, dim> seen;
+        stretches<0>([&](std::size_t first, std::size_t last) { see<with_acceleration>(seen, first, last); });
+        return extremes_in(seen);
     }
+    /// The same as a pass; seen() tells them once it has run.
+    template <bool with_acceleration = true>
+    void look()
+    {
+        seen_ = {};
+        pass_over<0>([](System& me, std::size_t first, std::size_t last) {
+            me.template see<with_acceleration>(me.seen_, first, last);
+        });
+    }
+    [[nodiscard]] Extremes seen() const { return extremes_in(seen_); }
     /// Of markers that move: how far since the lists were built, and how fast.
     [[nodiscard]] Extremes wall_extremes() const { return ranks().all(wall_extremes_here(), agree::Join{}); }
     /// The exact sum of f(i) over the mobile particles, whoever adds.
@@ -529,7 +552,7 @@ public:
             if (alone && species<0>().bins.cells() > 0 && !lists_know_all())
                 throw std::logic_error("spate: particles came or went since the lists were built; call "
                                        "make_lists_current() before energy()");
-            if constexpr (!alone) bring_records<0, M::mask(read_for_energy() & ParticlesOf<0>::fields)>();
+            bring_records<0, M::mask(read_for_energy()) & M::planner.record(0)>();
             backend_.for_each(species<0>().bins.cells(), [&](std::size_t cell) {
                 const ExactSum mine = pair_energy_of(cell, share);
                 const std::lock_guard hold(lock);
@@ -591,30 +614,16 @@ public:
             f(i, sums);
         }
     }
-    /// Sends back what has gone through elastic walls. Returns whether any has.
-    bool reflect() requires(reflects)
+    /// Sends back what has gone through elastic walls.
+    void reflect() requires(reflects)
     {
-        auto& p = mobile();
-        std::atomic<bool> any = false, lost = false;
-        stretches<0>([&](std::size_t first, std::size_t last) {
-            constexpr auto W = std::size_t(width<V>);
-            for (std::size_t k = first; k < last; k += W) {
-                if (!boundary_.any_beyond(p.template load_at<V>(position, k), radius_at<V>(k))) continue;
-                for (std::size_t i = k; i < std::min(last, k + W); ++i) {
-                    Vec<dim, double> x = p.at(position, i), v = p.at(velocity, i);
-                    const auto bounce = boundary_.reflect(x, v, radius_at<double>(i));
-                    if (bounce == B::Bounce::none) continue;
-                    p.put(position, i, x), p.put(velocity, i, v);
-                    any = true;
-                    if (bounce == B::Bounce::too_many) lost = true;
-                }
-            }
-        });
-        lost_ = ranks().all(lost_ || lost, agree::Or{});
-        return ranks().all(bool(any), agree::Or{});
+        bounced_ = false;
+        pass_over<0>([](System& me, std::size_t first, std::size_t last) { me.reflect(first, last); });
     }
+    /// Whether the last reflect() has sent any back.
+    [[nodiscard]] bool bounced() const { return ranks().all(bounced_, agree::Or{}); }
     /// Whether a particle bounced too often within one step.
-    [[nodiscard]] bool lost() const { return lost_; }
+    [[nodiscard]] bool lost() const { return ranks().all(lost_, agree::Or{}); }
     /// The sum of what visit(sum, i, j, x, ij, force) makes of each directed contact i <- j of mobile particles: x = x_i - x_j
     /// [m], ij what terms see, force on i [N]. Lists must be current. Cells come in any order, so a Sum must not depend on it.
     template <class Sum>
@@ -806,6 +815,108 @@ public:
     }
 
 private:
+    using Pass = std::function<void(System&, std::size_t first, std::size_t last)>;
+    /// A pass over the padded columns of a species, a stretch at a time. It touches nothing but its particles.
+    template <int s>
+    void pass_over(Pass pass)
+    {
+        waiting_[std::size_t(s)].push_back(std::move(pass));
+        if (!puts_off_) run_waiting<s>();
+    }
+    /// The waiting passes over the particles that a sweep has just summed, but for packs that it shares with other cells.
+    template <int s>
+    void pass_over_cell(std::size_t cell)
+    {
+        constexpr auto W = std::size_t(width<V>);
+        auto const& x = species<s>();
+        const std::size_t n = x.particles.size();
+        std::size_t first = (std::size_t(x.bins.begin(cell)) + W - 1) / W * W;
+        const auto end = std::size_t(x.bins.end(cell)), last = end == n ? n : end / W * W;
+        for (; first < last; first += stretch)
+            for (auto const& pass : waiting_[std::size_t(s)]) pass(*this, first, std::min(last, first + stretch));
+    }
+    /// Those packs, once; then nothing waits.
+    template <int s>
+    void pass_over_shared_packs()
+    {
+        constexpr auto W = std::size_t(width<V>);
+        auto const& x = species<s>();
+        auto& waiting = waiting_[std::size_t(s)];
+        std::size_t done = 0;
+        for (std::size_t cell = 1; cell < x.bins.cells() && !waiting.empty(); ++cell) {
+            const auto border = std::size_t(x.bins.begin(cell)), first = border / W * W;
+            if (border == first || first < done) continue;
+            done = std::min(x.particles.size(), first + W);
+            for (auto const& pass : waiting) pass(*this, first, done);
+        }
+        waiting.clear();
+    }
+    /// A sweep after which nothing but passes came, with these.
+    void run_last_sweep()
+    {
+        if (last_sweep_ == nullptr) return;
+        auto const sweep = last_sweep_;
+        last_sweep_ = nullptr;
+        sweep(*this);
+    }
+    template <int s>
+    void run_waiting()
+    {
+        run_last_sweep();
+        auto& waiting = waiting_[std::size_t(s)];
+        if (waiting.empty()) return;
+        stretches<s>([&](std::size_t first, std::size_t last) {
+            for (auto const& pass : waiting) pass(*this, first, last);
+        });
+        waiting.clear();
+    }
+    void run_waiting()
+    {
+        run_last_sweep();
+        each_species([&](auto s) { run_waiting<s()>(); });
+    }
+    /// f(first, last) over stretches of the padded columns of a species.
+    template <int s>
+    void stretches(auto const& f) const
+    {
+        const std::size_t n = species<s>().particles.size();
+        backend_.for_each((n + task - 1) / task, [&](std::size_t k) {
+            const std::size_t end = std::min(n, (k + 1) * task);
+            for (std::size_t first = k * task; first < end; first += stretch) f(first, std::min(end, first + stretch));
+        });
+    }
+    template <bool with_acceleration>
+    void see(LaneExtremes<V, dim>& seen, std::size_t first, std::size_t last) const
+    {
+        LaneExtremes<V, dim> mine;
+        mine.template add<with_acceleration>(species<0>().particles, first, last, M::template evolving<0>());
+        const std::lock_guard hold(seeing_);
+        seen |= mine;
+    }
+    [[nodiscard]] Extremes extremes_in(LaneExtremes<V, dim> const& seen) const
+    {
+        Extremes e;
+        if (!species<0>().particles.empty()) e = seen.over_lanes();
+        if constexpr (M::moves) e |= wall_extremes_here();
+        return ranks().all(e, agree::Join{});
+    }
+    void reflect(std::size_t first, std::size_t last) requires(reflects)
+    {
+        auto& p = species<0>().particles;
+        constexpr auto W = std::size_t(width<V>);
+        const auto mirrors = boundary_.template mirrors<V>();
+        for (std::size_t k = first; k < last; k += W) {
+            if (!mirrors.any_beyond(p.template load_at<V>(position, k), radius_at<V>(k))) continue;
+            for (std::size_t i = k; i < std::min(last, k + W); ++i) {
+                Vec<dim, double> x = p.at(position, i), v = p.at(velocity, i);
+                const auto bounce = boundary_.reflect(x, v, radius_at<double>(i));
+                if (bounce == B::Bounce::none) continue;
+                p.put(position, i, x), p.put(velocity, i, v);
+                std::atomic_ref(bounced_).store(true);
+                if (bounce == B::Bounce::too_many) std::atomic_ref(lost_).store(true);
+            }
+        }
+    }
     [[nodiscard]] std::int64_t pairs_here() const
     {
         std::int64_t n = 0;
@@ -832,6 +943,7 @@ private:
     /// Sums the forces on bodies that float: their rates.
     void push_bodies()
     {
+        run_waiting<1>();
         auto const& p = species<1>().particles;
         using Sums = typename std::remove_cvref_t<decltype(boundary_.bodies())>::Sums;
         Sums total{};
@@ -850,6 +962,7 @@ private:
     template <bool from_start, class... Sets>
     void advance_bodies(double dt, Sets... sets)
     {
+        run_waiting<1>();
         (boundary_.bodies().template advance<from_start>(sets, dt), ...);
         boundary_.turn_bodies();
         auto nearest = [this](Vec<dim, double> x) {
@@ -884,35 +997,41 @@ private:
     static constexpr bool has_pair_energy = []<class... X>(std::tuple<X...> const*) {
         return (false || ... || stores_energy<X>);
     }(static_cast<typename M::Terms const*>(nullptr));
-    /// Of the targets in a cell. Both copies of a pair store the same: one is counted, but for images and others' particles.
+    /// Of the targets in a cell, from records of now. Both copies of a pair store the same: one is counted, but for images and
+    /// others' particles.
     [[nodiscard]] ExactSum pair_energy_of(std::size_t cell, auto const& share) const
     {
         auto const& p = mobile();
-        auto const& bins = species<0>().bins;
         auto const& lists = this->template lists<0, 0>().of_cell(cell);
-        auto const& x = p.column(position);
+        auto const& packed = species<0>().packed;
+        using L = typename std::remove_cvref_t<decltype(packed)>::L;
         constexpr auto W = std::size_t(width<PairV>);
-        constexpr auto stride = std::uint32_t(Layout<dim, Set<M::template record<0>()>>::stride);
-        const std::size_t n = p.size(), first = std::size_t(bins.begin(cell));
-        const double most2 = physics_.interaction.range() * physics_.interaction.range() * (1 + 1e-6);
+        PairT const* const base = packed.data.data();
+        const auto u = p.template uniforms<PairV>();
+        const std::size_t n = p.size(), first = std::size_t(species<0>().bins.begin(cell));
+        const auto most2 = PairT(physics_.interaction.range() * physics_.interaction.range() * (1 + 1e-5));
         ExactSum sum;
-        for (std::size_t block = 0; block + 1 < lists.begin.size(); ++block)
-            for (auto row = std::size_t(lists.begin[block]); row < std::size_t(lists.begin[block + 1]); ++row)
-                for (std::size_t lane = 0; lane < W; ++lane) {
-                    const std::size_t j = std::uint32_t(lists.index[row * W + lane]) / stride;
-                    const std::size_t i = first + std::size_t(lists.target_of(block * W + lane));
+        for (std::size_t block = 0; block + 1 < lists.begin.size(); ++block) {
+            std::array<std::int32_t, W> at;
+            for (std::size_t lane = 0; lane < W; ++lane)
+                at[lane] = (std::int32_t(first) + lists.target_of(block * W + lane)) * L::stride;
+            const auto ri = gathered<PairV>(base, at.data(), L{});
+            for (auto row = std::size_t(lists.begin[block]); row < std::size_t(lists.begin[block + 1]); ++row) {
+                const auto rj = gathered<PairV>(base, lists.index.data() + row * W, L{});
+                const auto x =
+                    detail::seen_by<Interaction>(ri, u)[position] - detail::seen_by<Interaction>(rj, u)[position];
+                for (unsigned near = bits(x.squaredNorm() < PairV(most2)); near != 0; near &= near - 1) {
+                    const auto lane = std::size_t(std::countr_zero(near));
+                    const std::size_t j = std::uint32_t(lists.index[row * W + lane]) / std::uint32_t(L::stride);
+                    const std::size_t i = std::size_t(at[lane]) / std::size_t(L::stride);
                     if (j <= i || j == n) continue;
-                    double d2 = 0;
-                    for (std::size_t c = 0; j < n && c < std::size_t(dim); ++c) {
-                        const double d = double(x[c][i]) - double(x[c][j]);
-                        d2 += d * d;
-                    }
-                    if (!(d2 < most2)) continue;
                     const std::size_t of = particle_of(j);
                     const double part = share(i, of) + (j < n ? share(j, i) : 0);
                     if (part != 0)
                         add_pair_energy(sum, part, cell, block, row, lane, double_record(p, i), double_record_of(j));
                 }
+            }
+        }
         return sum;
     }
     /// The exact sum of what fill(what, ...) writes, a stretch of particles at a time; compiled once for all that is summed.
@@ -957,7 +1076,8 @@ private:
         auto const& packed = species<0>().packed;
         using L = typename std::remove_cvref_t<decltype(packed)>::L;
         Record<dim, double, Set<(read_for_energy() & ParticlesOf<0>::fields)>> r;
-        for_each(r.fields, [&]<class F>(F f) {
+        clear(r); // what is read of the target only is in no record
+        for_each(r.fields & L::fields, [&]<class F>(F f) {
             T const* at = packed.data.data() + j * std::size_t(L::stride) + L::template offset<F>;
             if constexpr (F::rank == 0) r[f] = double(*at);
             else
@@ -1169,6 +1289,18 @@ private:
             return (false || ... || (((terms >> t) & 1) != 0 && decltype(keeps<X>())::size > 0));
         }(static_cast<typename M::Terms const*>(nullptr), std::make_index_sequence<std::size_t(M::terms)>{});
     }
+    /// A sweep that ends a plan may wait for the passes after it, but one that keeps something is of its time.
+    static constexpr bool may_wait(auto const& plan, int k)
+    {
+        return alone && k + 1 == plan.count && !walls_keep && !keeps_something(plan);
+    }
+    static constexpr bool walls_keep = []<class... X>(std::tuple<X...> const*) {
+        auto one = []<class Y>(Y const*) {
+            if constexpr (requires { Y::keeps_any; }) return Y::keeps_any;
+            else return false;
+        };
+        return (false || ... || one(static_cast<X const*>(nullptr)));
+    }(static_cast<typename M::Terms const*>(nullptr));
     template <class... F>
     void evaluate(Fields<F...>, [[maybe_unused]] Carry carry)
     {
@@ -1189,7 +1321,9 @@ private:
                       "spate: terms wait for each other's fields; let one of them write a field of its own");
         [&]<std::size_t... k>(std::index_sequence<k...>)
         {
-            (stage<plan.stage[k], ahead_in(plan, int(k)), is_rest(plan, int(k)), made_by_cells(plan, int(k))>(), ...);
+            (stage<plan.stage[k], ahead_in(plan, int(k)), is_rest(plan, int(k)), made_by_cells(plan, int(k)),
+                   may_wait(plan, int(k))>(),
+             ...);
         }
         (std::make_index_sequence<std::size_t(plan.count)>{});
         if constexpr (!alone) parts_.finish(); // what no cell here has waited for
@@ -1235,12 +1369,25 @@ private:
         return false;
     }
     /// \tparam rest  some cells have run ahead    \tparam made  the tasks of the sweep before have done it
-    template <Stage st, Ahead ahead, bool rest, bool made>
+    template <Stage st, Ahead ahead, bool rest, bool made, bool may_wait>
     void stage()
     {
-        if constexpr (st.action == Action::sweep) sweep<st.species, st.terms, ~Mask(0), ahead, rest>();
-        else if constexpr (st.action == Action::pack) pack<st.species, st.fields, made>();
-        else if constexpr (!made) pass<st.species, st.terms, st.fields>();
+        if constexpr (st.action == Action::pack) pack<st.species, st.fields, made>();
+        else if constexpr (st.action == Action::pass) {
+            if constexpr (!made) pass<st.species, st.terms, st.fields>();
+        }
+        else {
+            run_waiting();
+            if constexpr (may_wait)
+                if (puts_off_) {
+                    last_sweep_ = [](System& me) {
+                        me.template sweep<st.species, st.terms>();
+                        me.template pass_over_shared_packs<st.species>();
+                    };
+                    return;
+                }
+            sweep<st.species, st.terms, ~Mask(0), ahead, rest>();
+        }
     }
     /// The same for the particles of one cell.
     template <Stage st>
@@ -1262,21 +1409,12 @@ private:
             for (; i < last; ++i) pass_at<T, st.species, st.terms, st.fields>(i);
         }
     }
-    /// f(first, last) over stretches of the padded columns of a species.
-    template <int s>
-    void stretches(auto const& f) const
-    {
-        const std::size_t n = species<s>().particles.size();
-        backend_.for_each((n + task - 1) / task, [&](std::size_t k) {
-            const std::size_t end = std::min(n, (k + 1) * task);
-            f(k * task, end);
-        });
-    }
     template <int s, Mask terms, Mask cleared>
     void pass()
     {
-        stretches<s>([&](std::size_t first, std::size_t last) __attribute__((flatten)) {
-            for (std::size_t i = first; i < last; i += std::size_t(width<V>)) pass_at<V, s, terms, cleared>(i);
+        pass_over<s>([](System & me, std::size_t first, std::size_t last) __attribute__((flatten)) {
+            for (std::size_t i = first; i < last; i += std::size_t(width<V>))
+                me.template pass_at<V, s, terms, cleared>(i);
         });
     }
     /// \tparam W  of one particle or of as many as a pack holds
@@ -1332,11 +1470,15 @@ private:
     template <int s, Mask copied, bool made = false>
     void pack()
     {
+        if (last_sweep_ != nullptr) run_waiting(); // it reads the records of before
         auto& x = species<s>();
         const std::size_t images = x.bins.images().of.size();
         if constexpr (!made) {
             make_room<s>();
-            stretches<s>([&](std::size_t first, std::size_t last) { pack_range<s, copied>(first, last); });
+            pass_over<s>([](System& me, std::size_t first, std::size_t last) {
+                me.template pack_range<s, copied>(first, last);
+            });
+            run_waiting<s>();
         }
         if constexpr (!alone) send_records<s, copied>();
         if (made || images == 0) return;
@@ -1455,7 +1597,7 @@ private:
     {
         auto& me = const_cast<System&>(*this); // records are no state
         me.template pack<s, copied>();
-        me.parts_.finish(s);
+        if constexpr (!alone) me.parts_.finish(s);
     }
     static Parts parts_of(Workers const& workers)
     {
@@ -1479,8 +1621,11 @@ private:
             using Target = Set<in_pairs(M::template fields<read_of_target(terms, s)>())>;
             constexpr Mask itself = (allowed >> s) & 1 ? terms : Mask(0);
             auto one = [&](std::size_t cell) {
+                const bool passes_follow = !waiting_[std::size_t(s)].empty();
                 sweep_cell<PairV, itself, Sums, Target>(physics_.interaction, terms_, x.particles, x.bins, cell,
-                                                        source...);
+                                                        passes_follow, source...);
+                if constexpr (alone)
+                    if (passes_follow) pass_over_cell<s>(cell);
             };
             // Alone at once: so g++ takes a scene's constants along into the sweep.
             if constexpr (alone) backend_.for_each(x.bins.cells(), one);
@@ -1492,7 +1637,7 @@ private:
         else with();
     }
     /// \tparam ahead  a later sweep of the mobile particles    \tparam rest  some have run ahead
-    template <int s, Mask terms, Mask allowed, Ahead ahead = Ahead{}, bool rest = false>
+    template <int s, Mask terms, Mask allowed = ~Mask(0), Ahead ahead = Ahead{}, bool rest = false>
     void sweep()
     {
         with_task<s, terms, allowed>([&](auto const& one) {
@@ -1603,11 +1748,12 @@ private:
     {
         each_species([&](auto s) {
             if constexpr (decltype((Fields<>{} | ... | (M::template evolving<s()>() & Sets{})))::size > 0)
-                stretches<s()>([&](std::size_t first, std::size_t last) {
+                pass_over<s()>([s, dt](System& me, std::size_t first, std::size_t last) {
                     auto one = [&](auto set) {
                         for_each(M::template evolving<s()>() & set, [&](auto f) {
                             for (int c = 0; c < components<decltype(f), dim>; ++c)
-                                advance_field<from_start, s()>(species<s()>(), f, std::size_t(c), first, last, T(dt));
+                                advance_field<from_start, s()>(me.template species<s()>(), f, std::size_t(c), first,
+                                                               last, T(dt));
                         });
                     };
                     (one(Sets{}), ...);
@@ -1630,6 +1776,10 @@ private:
     {
         for (std::size_t i = first; i < last; i += std::size_t(width<V>))
             store(y + i, V(load<V>(y0 + i) + V(dt) * load<V>(rate + i)));
+    }
+    [[gnu::noinline]] static void copy_column(T const* from, T* to, std::size_t first, std::size_t last)
+    {
+        for (std::size_t i = first; i < last; i += std::size_t(width<V>)) store(to + i, load<V>(from + i));
     }
     template <int s>
     void remember_places()
@@ -1822,7 +1972,12 @@ private:
     LocalSkins<dim, species_count> skins_;
     [[no_unique_address]] Parts parts_;
     double wrap_after_ = std::numeric_limits<double>::infinity(); ///< way after which positions are wrapped anew [m]
-    bool have_lists_ = false, sorted_markers_ = false, kick_rates_ = false, lost_ = false;
+    bool have_lists_ = false, sorted_markers_ = false, kick_rates_ = false, lost_ = false, bounced_ = false;
+    std::array<std::vector<Pass>, std::size_t(species_count)> waiting_; ///< passes, in their order
+    bool puts_off_ = false;                                             ///< whether passes wait
+    void (*last_sweep_)(System&) = nullptr;                             ///< that waits before them
+    LaneExtremes<V, dim> seen_;
+    static inline std::mutex seeing_;
     std::optional<Carry> carry_; ///< of sweeps for rates; to others what is kept of pairs is only shown
     double due_ = 0, moved_ = 0; ///< time since what is kept of pairs was kept, since the step was saved [s]
     bool trial_ = false;         ///< between save() and advance_saved()
