@@ -890,7 +890,7 @@ private:
     {
         LaneExtremes<V, dim> mine;
         mine.template add<with_acceleration>(species<0>().particles, first, last, M::template evolving<0>());
-        const std::lock_guard hold(seeing_);
+        const std::lock_guard hold(seeing);
         seen |= mine;
     }
     [[nodiscard]] Extremes extremes_in(LaneExtremes<V, dim> const& seen) const
@@ -1977,7 +1977,7 @@ private:
     bool puts_off_ = false;                                             ///< whether passes wait
     void (*last_sweep_)(System&) = nullptr;                             ///< that waits before them
     LaneExtremes<V, dim> seen_;
-    static inline std::mutex seeing_;
+    static inline std::mutex seeing;
     std::optional<Carry> carry_; ///< of sweeps for rates; to others what is kept of pairs is only shown
     double due_ = 0, moved_ = 0; ///< time since what is kept of pairs was kept, since the step was saved [s]
     bool trial_ = false;         ///< between save() and advance_saved()
