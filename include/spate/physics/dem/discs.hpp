@@ -16,7 +16,7 @@ struct Round {
     static constexpr int dim = Dim;
     static constexpr Fields reads{position, radius};
     /// Short lists: a thick skin, as they move every way, the thicker the fewer are within it, and targets in their own order.
-    static constexpr Neighbours neighbours{.skin = Dim == 2 ? 0.4 : 0.2, .finer = 1, .window = 1};
+    static constexpr Neighbours neighbours{.skin = Dim == 2 ? 0.5 : 0.2, .finer = 1, .window = 1};
     double largest; ///< largest radius of the scene [m]
 
     [[nodiscard]] double range() const { return 2 * largest; }
