@@ -194,5 +194,27 @@ TEST(Overlap, WaterRunsBetweenWallsOfItsOwn)
             EXPECT_EQ(sim.state_hash(), hash);
         });
 }
+// Markers at a periodic face have images on their own rank, which are made with the cell that they are images of.
+TEST(Overlap, ImagesOfWallsAreMadeWithTheirCells)
+{
+    auto between_plates = [](auto backend) {
+        constexpr double dx = 0.02;
+        auto water = wcsph(CubicSpline<2>{.h = 1.2 * dx}, Tait{.rho0 = 1000, .c0 = 30}, Continuity<2>{},
+                           PressureForce<2>{}, ArtificialViscosity{.alpha = 0.1}, Gravity<2>{{-5, 3}});
+        Simulation sim(water, RungeKutta2{}, Bce(Box<2>{{}, {{1, 0.4}}}, dx, Adami{}, periodic(y_axis)), backend);
+        sim.fill(Box<2>{{}, {{1, 0.4}}}, dx, hydrostatic);
+        sim.run({.steps = 20, .cfl = 0.2});
+        return sim;
+    };
+    const auto hash = between_plates(Serial{}).state_hash();
+    for (const Comes comes : {Comes::at_once, Comes::soon, Comes::late})
+        VirtualRanks(2).run([&](auto rank) {
+            Log log;
+            const auto sim = between_plates(
+                OnRank{Logged<decltype(rank)>{rank, &log, comes}, LoggedTasks{&log}, 1, Balance{.by_pairs = true}});
+            EXPECT_FALSE(sim.system().template species<1>().bins.images().of.empty());
+            EXPECT_EQ(sim.state_hash(), hash);
+        });
+}
 
 } // namespace
