@@ -248,5 +248,23 @@ TEST(SpringWall, BitsDoNotDependOnThreads)
     EXPECT_EQ(run(2, 0), one);
     EXPECT_EQ(run(3, 2), one);
 }
+// Two grains alike but for the spring that the floor has of one of them are in other states.
+TEST(SpringWall, StateHashKnowsWhatIsKept)
+{
+    const Dashpot dashpot{.e = 0.7};
+    const Friction friction{.mu = 0.5};
+    auto s = rough<2>(dashpot, friction, {0, -9.81}, {1}, Box<2>{{0, 0}, {2, 1}}, contact(spring, dashpot, friction),
+                      open(top));
+    s.add({0.5, r - 1e-5}, {0.1, 0});
+    s.run({.steps = 20, .dt = 2e-5});
+    const KeptAtWall<TangentialSpring, 1> kept; // by axis: of the floor
+    const auto was = s.particles().at(kept, 0);
+    EXPECT_NE(was[0], 0);
+    const auto hash = s.state_hash();
+    s.particles().put(kept, 0, {std::nextafter(was[0], 0.0)});
+    EXPECT_NE(s.state_hash(), hash);
+    s.particles().put(kept, 0, was);
+    EXPECT_EQ(s.state_hash(), hash);
+}
 
 } // namespace

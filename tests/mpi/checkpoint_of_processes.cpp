@@ -27,6 +27,6 @@ void expect_checkpoints_of_one(std::int64_t cut)
 }
 
 TEST(CheckpointOfProcesses, OfADamBreakIsThatOfOne) { expect_checkpoints_of_one<going_on::Column>(411); }
-TEST(CheckpointOfProcesses, OfGrainsThatEnterAndLeaveIsThatOfOne) { expect_checkpoints_of_one<going_on::Hopper>(1242); }
+TEST(CheckpointOfProcesses, OfGrainsThatEnterAndLeaveIsThatOfOne) { expect_checkpoints_of_one<going_on::Hopper>(1236); }
 
 } // namespace

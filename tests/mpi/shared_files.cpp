@@ -87,7 +87,7 @@ TEST_F(SharedFiles, EndAllProcessesWithAnErrorIfTheyCannotBeWritten)
 TEST_F(SharedFiles, GoOnWithTheBitsOfOneProcess)
 {
     expect_to_go_on<going_on::Column>(411);
-    expect_to_go_on<going_on::Hopper>(1242);
+    expect_to_go_on<going_on::Hopper>(1236);
 }
 // Beside its part a process needs room for its stretch, of like size, and for its keys and the one table that is on its way
 // (its copy in order, as messages and as they arrive: less than a part); and for a block of the file.

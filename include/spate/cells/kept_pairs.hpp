@@ -14,9 +14,10 @@ namespace spate {
 /// \tparam Count  values a pair
 template <Real T, int Count>
 struct KeptPairs {
-    using Set = std::uint16_t;       ///< a bit for each lane
-    std::vector<Set> set;            ///< of each row of the lists: the lanes that touch
-    std::vector<std::int32_t> first; ///< of each block: the pairs that there is room for before it; and of all
+    using Set = std::uint16_t;              ///< a bit for each lane
+    static constexpr std::size_t spare = 2; ///< pairs that a block of new lists has room for beyond those that touch
+    std::vector<Set> set;                   ///< of each row of the lists: the lanes that touch
+    std::vector<std::int32_t> first;        ///< of each block: the pairs that there is room for before it; and of all
     Array<T> value;
 
     [[nodiscard]] static std::size_t count(Set set) { return std::size_t(std::popcount(set)); }

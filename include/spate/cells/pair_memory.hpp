@@ -118,7 +118,8 @@ public:
                         for (Pair const* p : found_here) all.push_back(p->value[c]);
                     pairs += found_here.size();
                 }
-                kept.first.push_back(kept.first.back() + std::int32_t(pairs));
+                all.insert(all.end(), Kept::spare * std::size_t(Count), T(0));
+                kept.first.push_back(kept.first.back() + std::int32_t(pairs + Kept::spare));
             }
             if (kept.value.capacity() > all.size() + all.size() / 64) Array<T>().swap(kept.value);
             kept.value.reserve(1 + all.size()); // rows without any may look at the first value

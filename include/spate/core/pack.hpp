@@ -264,7 +264,7 @@ template <int Count, int f>
 {
     auto two = [&](int a, int b) __attribute__((always_inline))
     {
-        return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_load_pd(p[a] + f)), _mm256_load_pd(p[b] + f), 1);
+        return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(p[a] + f)), _mm256_loadu_pd(p[b] + f), 1);
     };
     const __m512d r0 = two(0, 2), r1 = two(1, 3), r2 = two(4, 6), r3 = two(5, 7);
     const __m512d t0 = _mm512_unpacklo_pd(r0, r1), t1 = _mm512_unpackhi_pd(r0, r1);
@@ -280,9 +280,9 @@ template <int Count, int f> // a rest of one or two values
     auto four = [&](int a, int b, int c, int d) __attribute__((always_inline))
     {
         const __m256d lo =
-            _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_load_pd(p[a] + f)), _mm_load_pd(p[b] + f), 1);
+            _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(p[a] + f)), _mm_loadu_pd(p[b] + f), 1);
         const __m256d hi =
-            _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_load_pd(p[c] + f)), _mm_load_pd(p[d] + f), 1);
+            _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(p[c] + f)), _mm_loadu_pd(p[d] + f), 1);
         return _mm512_insertf64x4(_mm512_castpd256_pd512(lo), hi, 1);
     };
     const __m512d a = four(0, 2, 4, 6), b = four(1, 3, 5, 7);
@@ -295,9 +295,9 @@ template <int Count, int f>
     auto four = [&](int k) __attribute__((always_inline))
     { // records k, k + 4, k + 8, k + 12
         const __m256 lo =
-            _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(p[k] + f)), _mm_load_ps(p[k + 4] + f), 1);
+            _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(p[k] + f)), _mm_loadu_ps(p[k + 4] + f), 1);
         const __m256 hi =
-            _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(p[k + 8] + f)), _mm_load_ps(p[k + 12] + f), 1);
+            _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(p[k + 8] + f)), _mm_loadu_ps(p[k + 12] + f), 1);
         return _mm512_castpd_ps(
             _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_castps_pd(lo)), _mm256_castps_pd(hi), 1));
     };
@@ -313,8 +313,8 @@ template <int Count, int f>
 template <int Count, int f>
 [[gnu::always_inline]] inline void transpose(double const* const (&p)[4], Pack<double> (&out)[std::size_t(Count)])
 {
-    const __m256d a = _mm256_load_pd(p[0] + f), b = _mm256_load_pd(p[1] + f);
-    const __m256d c = _mm256_load_pd(p[2] + f), d = _mm256_load_pd(p[3] + f);
+    const __m256d a = _mm256_loadu_pd(p[0] + f), b = _mm256_loadu_pd(p[1] + f);
+    const __m256d c = _mm256_loadu_pd(p[2] + f), d = _mm256_loadu_pd(p[3] + f);
     const __m256d t0 = _mm256_unpacklo_pd(a, b), t1 = _mm256_unpackhi_pd(a, b);
     const __m256d t2 = _mm256_unpacklo_pd(c, d), t3 = _mm256_unpackhi_pd(c, d);
     out[f].b = _mm256_permute2f128_pd(t0, t2, 0x20);
@@ -336,7 +336,7 @@ inline constexpr bool transposes_in_registers =
 } // namespace detail
 
 /// out[f] lane k = base[at[k] + f], f < Count: width<V> records, transposed in registers.
-/// Records start on multiples of their own size up to 32 bytes, and base is aligned to 64.
+/// May read up to three values beyond the last record.
 template <int Stride, int Count, class V>
 [[gnu::always_inline]] inline void load_records(scalar_t<V> const* base, std::int32_t const* at,
                                                 V (&out)[std::size_t(Count)])
@@ -346,7 +346,7 @@ template <int Stride, int Count, class V>
     if constexpr (W == 1) {
         for (int f = 0; f < Count; ++f) out[f] = base[std::size_t(std::uint32_t(*at)) + std::size_t(f)];
     }
-    else if constexpr (detail::transposes_in_registers<T> && (Stride % 4 == 0 || (Stride == 2 && W == 8))) {
+    else if constexpr (detail::transposes_in_registers<T> && (Stride > 2 || (Stride == 2 && W == 8))) {
         T const* p[std::size_t(W)];
         for (int k = 0; k < W; ++k) p[k] = base + std::size_t(std::uint32_t(at[k]));
 #if defined(__AVX512F__)

@@ -33,14 +33,17 @@ struct Record<Dim, V, Fields<F...>> : Slot<F, Dim, V>... {
     }
 };
 
-/// Where a field lies in the packed record, and how long the record is: a multiple of 4 values, or at most 2.
+/// Where a field lies in the packed record, and how long the record is: a multiple of 4 values, or at most 2; a long one at
+/// least even.
 template <int Dim, class S>
 struct Layout;
 template <int Dim, class... F>
 struct Layout<Dim, Fields<F...>> {
     static constexpr Fields<F...> fields{};
     static constexpr int count = (0 + ... + components<F, Dim>);
-    static constexpr int stride = count <= 2 ? (count == 0 ? 1 : count) : (count + 3) / 4 * 4;
+    static constexpr int stride = count <= 2  ? (count == 0 ? 1 : count)
+                                  : count > 8 ? (count + 1) / 2 * 2
+                                              : (count + 3) / 4 * 4;
     template <class G>
     static constexpr int offset = [] {
         int at = -1, o = 0;

@@ -249,6 +249,18 @@ public:
         constexpr Mask anew = made<s> & ~mask(detail::only_given(stored<s>()) | rates | given_by_boundary);
         return fields<mask(stored<s>()) & ~anew>();
     }
+    /// State of species s that no rate advances: what a term makes of what it was before, as what is kept at walls.
+    template <int s>
+    static constexpr auto remembered()
+    {
+        constexpr Mask changed = [] {
+            Mask m = 0;
+            for (auto const& term : planner.term)
+                if (term.when == When::evaluation && !term.pair) m |= term.reads_i & term.writes;
+            return m;
+        }();
+        return fields<changed & mask(lasting<s>()) & ~mask(evolving<s>())>();
+    }
     /// What a record of species s as a source holds.
     template <int s>
     static constexpr auto record()

@@ -185,6 +185,7 @@ template <class V, Mask terms, class Sums, class Target, class I, class Tuple, c
     auto const& lists = std::get<0>(std::tie(source...)).lists.of_cell(cell);
     const std::size_t blocks = lists.begin.size() - 1;
     const int targets = at.end(cell) - first;
+    constexpr std::int32_t later = 16 * width<V>; // targets, by when their columns are there
     auto run = [&]<bool in_order>(std::bool_constant<in_order>, std::size_t block, std::size_t end)
         __attribute__((always_inline))
     {
@@ -201,7 +202,8 @@ template <class V, Mask terms, class Sums, class Target, class I, class Tuple, c
             }
             const std::int32_t at_first = first + (in_order ? std::int32_t(block) * width<V> : 0);
             if constexpr (in_order)
-                if (passes_follow) particles.ask_for(std::size_t(at_first));
+                if (passes_follow)
+                    particles.ask_for(std::size_t(std::min(at_first + later, std::int32_t(particles.size()) - 1)));
             const auto ri = [&]() __attribute__((always_inline))
             {
                 if constexpr (in_order) return detail::targets_at<V, I, Tuple, Target>(particles, at_first, source...);

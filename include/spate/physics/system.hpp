@@ -700,8 +700,8 @@ public:
         b += skins_.bytes();
         return b;
     }
-    /// Sum modulo 2^64 over all particles of a hash of (species, id, bits of the evolving fields), and over all pairs of
-    /// (ids, bits of what terms keep of them).
+    /// Sum modulo 2^64 over all particles of a hash of (species, id, bits of the evolving fields and of what is kept at walls),
+    /// and over all pairs of (ids, bits of what terms keep of them).
     [[nodiscard, gnu::cold]] std::uint64_t state_hash() const
     {
         std::uint64_t total = 0;
@@ -709,7 +709,7 @@ public:
             auto const& p = species<s()>().particles;
             for (std::size_t i = 0; i < counted<s()>(); ++i) {
                 std::uint64_t h = mix(mix(std::uint64_t(s()) + 1) + p.id()[i]);
-                for_each(M::template evolving<s()>(), [&](auto f) {
+                for_each(M::template evolving<s()>() | M::template remembered<s()>(), [&](auto f) {
                     for (auto const& column : p.column(f)) {
                         std::uint64_t bits = 0;
                         std::memcpy(&bits, &column[i], sizeof(T));
@@ -1028,7 +1028,8 @@ private:
                     const std::size_t of = particle_of(j);
                     const double part = share(i, of) + (j < n ? share(j, i) : 0);
                     if (part != 0)
-                        add_pair_energy(sum, part, cell, block, row, lane, double_record(p, i), double_record_of(j));
+                        add_pair_energy(sum, part, cell, block, row, lane, record_of_now(i),
+                                        j < n ? record_of_now(j) : double_record_of(j));
                 }
             }
         }
@@ -1051,6 +1052,17 @@ private:
             total += mine;
         });
         return ranks().all(total, agree::Sum{}).value();
+    }
+    /// Of particle i; from its record, which is current and one place, where that is as exact as its columns.
+    auto record_of_now(std::size_t i) const
+    {
+        auto const& p = mobile();
+        if constexpr (!std::same_as<PairT, T>) return double_record(p, i);
+        else {
+            auto r = packed_record(i);
+            for_each(r.fields - decltype(species<0>().packed)::L::fields, [&](auto f) { r[f] = p.at(f, i); });
+            return r;
+        }
     }
     /// Of the mobile particle behind a record other than the sentinel, as it is now.
     auto double_record_of(std::size_t j) const
@@ -1289,18 +1301,8 @@ private:
             return (false || ... || (((terms >> t) & 1) != 0 && decltype(keeps<X>())::size > 0));
         }(static_cast<typename M::Terms const*>(nullptr), std::make_index_sequence<std::size_t(M::terms)>{});
     }
-    /// A sweep that ends a plan may wait for the passes after it, but one that keeps something is of its time.
-    static constexpr bool may_wait(auto const& plan, int k)
-    {
-        return alone && k + 1 == plan.count && !walls_keep && !keeps_something(plan);
-    }
-    static constexpr bool walls_keep = []<class... X>(std::tuple<X...> const*) {
-        auto one = []<class Y>(Y const*) {
-            if constexpr (requires { Y::keeps_any; }) return Y::keeps_any;
-            else return false;
-        };
-        return (false || ... || one(static_cast<X const*>(nullptr)));
-    }(static_cast<typename M::Terms const*>(nullptr));
+    /// A sweep that ends a plan may wait for the passes after it.
+    static constexpr bool may_wait(auto const& plan, int k) { return alone && k + 1 == plan.count; }
     template <class... F>
     void evaluate(Fields<F...>, [[maybe_unused]] Carry carry)
     {
@@ -1380,8 +1382,11 @@ private:
             run_waiting();
             if constexpr (may_wait)
                 if (puts_off_) {
+                    last_carry_ = carry_.value_or(Carry{due_});
                     last_sweep_ = [](System& me) {
+                        const auto carry = std::exchange(me.carry_, me.last_carry_);
                         me.template sweep<st.species, st.terms>();
+                        me.carry_ = carry;
                         me.template pass_over_shared_packs<st.species>();
                     };
                     return;
@@ -1979,6 +1984,7 @@ private:
     LaneExtremes<V, dim> seen_;
     static inline std::mutex seeing;
     std::optional<Carry> carry_; ///< of sweeps for rates; to others what is kept of pairs is only shown
+    Carry last_carry_;           ///< of the one that waits
     double due_ = 0, moved_ = 0; ///< time since what is kept of pairs was kept, since the step was saved [s]
     bool trial_ = false;         ///< between save() and advance_saved()
     std::int64_t rebuilds_ = 0, evaluations_ = 0, pairs_evaluated_ = 0, looks_ = 0;

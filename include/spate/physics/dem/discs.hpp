@@ -37,7 +37,7 @@ struct Round {
         const V r = sqrt(r2);
         Contact<Dim, V, decltype(r2 < r2)> ij;
         ij.mask = r2 < d * d;
-        ij.n = (1 / r) * x;
+        ij.n = (r * (1 / r2)) * x; // 1/r, but root and quotient do not wait for each other
         ij.overlap = d - r;
         return ij;
     }

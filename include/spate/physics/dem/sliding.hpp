@@ -23,7 +23,7 @@ struct Sliding {
         G trial = spring;
         if constexpr (!std::same_as<C, NoDamping>) trial += c * u;
         const V g2 = trial.squaredNorm();
-        yields = where(g2 > limit * limit, limit / sqrt(g2), V(1));
+        yields = where(g2 > limit * limit, limit * (sqrt(g2) * (1 / g2)), V(1)); // limit/|G|, with less to wait for
         g = yields * trial;
     }
     /// What the dashpot takes, and what slides of a spring of stiffness k and elongation xi within a time [W].
