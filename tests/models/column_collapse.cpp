@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A column of discs with friction falls on a floor with friction: V54 of the validation plan. Tall columns (height over
 // width a above 3) run out by a power of a, 2/3 in a channel (Lube et al. 2005) and 0.7 for discs (Staron & Hinch 2005).
+// What raises the power here is told in docs/results/granular.
 #include "models/case.hpp"
 #include "models/results.hpp"
 #include "oracle/dice.hpp"
