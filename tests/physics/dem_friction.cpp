@@ -229,5 +229,14 @@ TEST(Mixture, TakesItsStepFromTheLightestGrain)
     const double m = rho * 4.0 / 3 * std::numbers::pi * R * R * R;
     EXPECT_NEAR(step(Hertz::of({48e9, nu}), m) / (0.15 * rayleigh), 1, 1e-9);
 }
+// The tangential spring of a grain of micrometres is as long after it was turned as before, in float too.
+TEST(Friction, TurnsSpringsOfSmallGrains)
+{
+    using F = Scalar<float>;
+    const Vec<3, F> n{{0.6f, 0.0f, 0.8f}}, spring{{3e-13f, 4e-13f, 0.0f}};
+    const Vec<3, F> now = turned(n, spring);
+    EXPECT_NEAR(std::sqrt(double(now.squaredNorm().b)), 5e-13, 1e-18);
+    EXPECT_NEAR(double(now.dot(n).b), 0, 1e-19);
+}
 
 } // namespace

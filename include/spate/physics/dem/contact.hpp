@@ -55,8 +55,8 @@ template <class V>
 [[gnu::always_inline]] inline Vec<3, V> turned(Vec<3, V> const& n, Vec<3, V> const& axial)
 {
     const Vec<3, V> in_plane = across(n, axial);
-    const V after = in_plane.squaredNorm(); // root and quotient do not wait for each other
-    return where(after > 0, sqrt(axial.squaredNorm() * after) * (1 / after), V(1)) * in_plane;
+    const V after = in_plane.squaredNorm(); // no product of both: in float it is 0 for the springs of small grains
+    return where(after > 0, sqrt(axial.squaredNorm() / after), V(1)) * in_plane;
 }
 template <class V>
 [[gnu::always_inline]] inline Vec<1, V> turned(Vec<2, V> const&, Vec<1, V> const& axial)
