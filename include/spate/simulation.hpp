@@ -493,13 +493,14 @@ public:
     [[gnu::cold]] [[nodiscard]] Grid<dim> make_grid(Box<dim> const& box) const
     {
         constexpr int by_dimension[] = {64, 16, 6}, of_many_ranks[] = {16, 4, 2}; // several cells a rank
-        // In the plane short lists make cells so cheap that what a cell itself costs shows: larger ones, where enough remain
-        // for each thread.
-        const bool larger = dim == 2 && short_lists<typename Engine::M::Interaction> &&
+        // Short lists make cells so cheap that what a cell itself costs shows: larger ones, where enough remain for each thread.
+        constexpr int of_short_lists[] = {64, 32, 10};
+        const bool larger = short_lists<typename Engine::M::Interaction> &&
                             system_.mobile().size() > 32768 * std::size_t(system_.backend().threads());
         const int cell = system_.backend().cell > 0 ? system_.backend().cell
-                         : Engine::alone            ? by_dimension[dim - 1] * (larger ? 2 : 1)
-                                                    : of_many_ranks[dim - 1];
+                         : !Engine::alone           ? of_many_ranks[dim - 1]
+                         : larger                   ? of_short_lists[dim - 1]
+                                                    : by_dimension[dim - 1];
         auto const& n = system_.neighbours();
         return Grid<dim>(box, system_.boundary().template edges<dim>(), physics().interaction.range() * n.bin_edge(),
                          n.finer, cell);
@@ -1148,8 +1149,9 @@ private:
     [[nodiscard]] bool energy_due() const
     {
         if (step_ % watch_.energy_every != 0) return false;
-        const std::int64_t seldom = std::int64_t(watch_.calm) * watch_.energy_every;
-        return step_ < seldom || step_ % seldom == 0 || report_.energy_rise > watch_.warn / 2;
+        if (report_.energy_rise > watch_.warn / 2) return true;
+        const auto look = std::uint64_t(step_ / watch_.energy_every), calm = std::uint64_t(watch_.calm);
+        return look < calm ? look == 0 || std::has_single_bit(look) : look % calm == 0;
     }
     void look_at_energy()
     {

@@ -134,6 +134,23 @@ TEST(PairMemory, SurvivesThatOthersComeAndGo)
     }
     EXPECT_EQ(box.exchanged().left.particles, 40);
 }
+// Of many that were, few are left: their ids lie far apart.
+TEST(PairMemory, IsFoundWhereIdsAreFewAmongMany)
+{
+    auto box = crowd(Serial{});
+    box.add({0.2, 0.8});
+    for (int k = 0; k < 3000; ++k) box.add({0.02 + 0.0003 * k, 0.9});
+    const auto last = std::uint32_t(box.particles().size());
+    box.add({0.2 + 1.5 * r, 0.8});
+    box.remove([&](auto const& p, std::size_t i) { return p.id()[i] > 42 && p.id()[i] < last; });
+    ASSERT_EQ(box.particles().size(), 44u);
+    for (int n = 1; n <= 120; ++n) {
+        box.run({.steps = 1, .dt = dt});
+        ASSERT_NEAR(push_on(box, 42), -n, 1e-9 * n) << "after step " << n;
+        ASSERT_NEAR(push_on(box, last), n, 1e-9 * n) << "after step " << n;
+    }
+    EXPECT_GT(box.system().rebuilds(), 5);
+}
 TEST(PairMemory, OfAGrainThatLeavesIsForgotten)
 {
     auto box = crowd(Serial{});

@@ -119,6 +119,8 @@ public:
     {
         return std::size_t(std::uint32_t(place)) / std::size_t(record_);
     }
+    /// ... and the place of a number.
+    [[nodiscard]] std::int32_t place(std::size_t number) const { return std::int32_t(number * std::size_t(record_)); }
     /// Directed pairs within range when the lists were built.
     [[nodiscard]] std::int64_t pairs() const { return pairs_; }
     /// Entries of all lists, sentinels too.

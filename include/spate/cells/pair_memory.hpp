@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 namespace spate {
@@ -85,38 +86,53 @@ public:
     {
         memory.resize(at.cells());
         const auto first_of = index();
+        const Numbers numbers(source.id(), foreign);
+        const std::int32_t nobody = lists.place(source.size());
         backend.for_each(memory.size(), [&](std::size_t cell) {
             auto& kept = memory[cell];
             auto const& list = lists.of_cell(cell);
-            static thread_local Array<T> all;                        // the cell's own is then as long as need be
-            static thread_local std::vector<Pair const*> found_here; // of a row
+            static thread_local Array<T> all;               // the cell's own is then as long as need be
+            static thread_local std::vector<Wanted> wanted; // of a block: the k-th of each lane
             all.clear();
             kept.set.assign(list.begin.empty() ? 0 : std::size_t(list.begin.back()), 0);
             kept.first.assign(1, 0);
             for (std::size_t b = 0; b + 1 < list.begin.size(); ++b) {
-                decltype(of_target(0, first_of)) of_lane[64];
+                wanted.clear();
                 for (std::size_t lane = 0; lane < std::size_t(W); ++lane) {
                     const std::int32_t t = list.target_of(b * std::size_t(W) + lane);
-                    of_lane[lane] = of_target(target.id()[std::size_t(at.begin(cell) + t)], first_of);
+                    const auto [first, last] = of_target(target.id()[std::size_t(at.begin(cell) + t)], first_of);
+                    while (wanted.size() < std::size_t(last - first)) wanted.emplace_back();
+                    for (auto p = first; p != last; ++p) {
+                        auto& w = wanted[std::size_t(p - first)];
+                        w.pair[lane] = &*p;
+                        if (const auto j = numbers.of(p->j); j >= 0) w.place[lane] = lists.place(std::size_t(j));
+                    }
                 }
                 std::size_t pairs = 0;
                 for (auto row = std::size_t(list.begin[b]); row < std::size_t(list.begin[b + 1]); ++row) {
-                    found_here.clear();
+                    Places who;
+                    std::int32_t last = 0;
                     for (std::size_t lane = 0; lane < std::size_t(W); ++lane) {
-                        auto const& mine = of_lane[lane];
-                        if (mine.first == mine.second) continue;
-                        const std::size_t j = lists.number(list.index[row * std::size_t(W) + lane]);
-                        if (j == source.size()) continue;
-                        const std::uint32_t id = id_of(j, source, of, foreign);
-                        auto found = mine.first;
-                        while (found != mine.second && found->j < id) ++found; // few
-                        if (found == mine.second || found->j != id) continue;
+                        who[lane] = list.index[row * std::size_t(W) + lane];
+                        last = std::max(last, who[lane]);
+                    }
+                    if (last > nobody)
+                        for (std::size_t lane = 0; lane < std::size_t(W); ++lane)
+                            who[lane] = lists.place(particle_of(lists.number(who[lane]), source.size(), of, foreign));
+                    Places which{}; // of those wanted, and one: without a branch, for there is no telling
+                    for (std::size_t k = 0; k < wanted.size(); ++k)
+                        for (std::size_t lane = 0; lane < std::size_t(W); ++lane)
+                            which[lane] = who[lane] == wanted[k].place[lane] ? std::int32_t(k + 1) : which[lane];
+                    std::array<Pair const*, most> found;
+                    std::size_t n = 0;
+                    for (std::size_t lane = 0; lane < std::size_t(W); ++lane) {
+                        if (which[lane] == 0) continue;
                         kept.set[row] = typename Kept::Set(kept.set[row] | 1u << lane);
-                        found_here.push_back(&*found);
+                        found[n++] = wanted[std::size_t(which[lane] - 1)].pair[lane];
                     }
                     for (std::size_t c = 0; c < std::size_t(Count); ++c)
-                        for (Pair const* p : found_here) all.push_back(p->value[c]);
-                    pairs += found_here.size();
+                        for (std::size_t k = 0; k < n; ++k) all.push_back(found[k]->value[c]);
+                    pairs += n;
                 }
                 all.insert(all.end(), Kept::spare * std::size_t(Count), T(0));
                 kept.first.push_back(kept.first.back() + std::int32_t(pairs + Kept::spare));
@@ -171,16 +187,65 @@ private:
         return std::pair{std::lower_bound(pairs_.begin(), pairs_.end(), Pair{i, 0, {}}, before),
                          std::upper_bound(pairs_.begin(), pairs_.end(), Pair{i, ~std::uint32_t(0), {}}, before)};
     }
-    /// The particle behind a record other than the sentinel: of an image the particle itself.
+    /// Its number, of own particles and then of others', of a record: of an image that of the particle itself.
+    template <int Dim>
+    static std::size_t particle_of(std::size_t record, std::size_t own, Binning<Dim> const& of,
+                                   std::optional<Foreign<Dim, T>> const& foreign)
+    {
+        if (record <= own) return record; // or nobody
+        if (!foreign || record < std::size_t(foreign->first)) return std::size_t(of.images().of[record - own - 1]);
+        return std::size_t(foreign->first) + foreign->number_of(record);
+    }
     template <int Dim, class Q>
-    static std::uint32_t id_of(std::size_t j, Q const& source, Binning<Dim> const& of,
+    static std::uint32_t id_of(std::size_t record, Q const& source, Binning<Dim> const& of,
                                std::optional<Foreign<Dim, T>> const& foreign)
     {
-        const std::size_t n = source.size();
-        if (j < n) return source.id()[j];
-        if (!foreign || j < std::size_t(foreign->first)) return source.id()[std::size_t(of.images().of[j - n - 1])];
-        return foreign->ids[foreign->number_of(j)];
+        const std::size_t j = particle_of(record, source.size(), of, foreign);
+        return j < source.size() ? source.id()[j] : foreign->ids[j - std::size_t(foreign->first)];
     }
+    /// From ids to these numbers.
+    class Numbers {
+    public:
+        template <int Dim>
+        Numbers(std::vector<std::uint32_t> const& own, std::optional<Foreign<Dim, T>> const& foreign)
+        {
+            std::size_t n = own.size(), largest = 0;
+            for (auto id : own) largest = std::max(largest, std::size_t(id));
+            if (foreign) n += foreign->ids.size();
+            if (foreign)
+                for (auto id : foreign->ids) largest = std::max(largest, std::size_t(id));
+            if (largest < 8 * n + 1024) dense_.assign(largest + 1, -1);
+            else sparse_.reserve(n);
+            for (std::size_t i = 0; i < own.size(); ++i) put(own[i], i);
+            if (foreign)
+                for (std::size_t i = 0; i < foreign->ids.size(); ++i)
+                    put(foreign->ids[i], std::size_t(foreign->first) + i);
+        }
+        /// -1 where nobody here has the id.
+        [[nodiscard]] std::int32_t of(std::uint32_t id) const
+        {
+            if (!dense_.empty()) return id < dense_.size() ? dense_[id] : -1;
+            const auto found = sparse_.find(id);
+            return found == sparse_.end() ? -1 : found->second;
+        }
+
+    private:
+        void put(std::uint32_t id, std::size_t number)
+        {
+            if (!dense_.empty()) dense_[id] = std::int32_t(number);
+            else sparse_[id] = std::int32_t(number);
+        }
+        std::vector<std::int32_t> dense_;
+        std::unordered_map<std::uint32_t, std::int32_t> sparse_;
+    };
+    static constexpr std::size_t most = 64; ///< lanes
+    using Places = std::array<std::int32_t, most>;
+    /// One pair of each lane, and the place of its source in lists; -1 where there is none.
+    struct Wanted {
+        Wanted() { place.fill(-1); }
+        Places place;
+        std::array<Pair const*, most> pair{};
+    };
 
     std::vector<Pair> pairs_;
 };

@@ -20,7 +20,7 @@ template <class S, class Near>
     auto const& p = system.mobile();
     auto const& bins = system.template species<0>().bins;
     auto const& lists = system.template lists<0, 0>();
-    constexpr auto W = std::size_t(width<typename S::V>);
+    constexpr auto W = std::size_t(width<typename S::PairV>);
     for (std::size_t cell = 0; cell < bins.cells(); ++cell) {
         auto const& mine = lists.of_cell(cell);
         const auto first = std::size_t(bins.begin(cell));

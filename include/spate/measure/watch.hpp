@@ -20,12 +20,12 @@ namespace spate {
 /// the start, for pairs that are too near.
 struct Watch {
     static constexpr bool on = true;
-    int energy_every = 10; ///< steps between two looks at the energy: of the first `calm`, and where it rises
+    int energy_every = 10; ///< steps between two looks at the energy, where it has risen by half of `warn`
     double warn = 0.01;    ///< rise of total energy over its reference that is told [-]
     double stop = 0.05;    ///< ... that ends the run [-]
     double overlap = 0.2;  ///< of two grains at the start, over the smaller radius, that is let pass [-]
-    int calm = 32; ///< then, while it has not risen by half of `warn`, one in so many looks is taken; a look costs
-                   ///< grains three steps: 1 % in 320
+    int calm = 32; ///< while it has not, one in so many looks is taken, before the first of these the times between two
+                   ///< double; a look costs grains two or three steps: 1 % in 320
 
     [[gnu::cold]] void check() const
     {

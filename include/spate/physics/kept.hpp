@@ -38,7 +38,8 @@ struct Kept<Dim, V, Fields<F...>> {
         (one(F{}), ...);
     }
 };
-/// The memory of a block's pairs, row by row: what has been read of a row makes room for what is kept of it.
+/// The memory of a block's pairs, row by row. What will be kept is put aside until the block is done: written where it was
+/// read, it would make the next row wait for this one, as a processor does not look through the lanes of a store.
 template <int Dim, class V, class S>
 class BlockMemory {
     using T = scalar_t<V>;
@@ -47,11 +48,16 @@ class BlockMemory {
     static_assert(std::size_t(width<V>) <= 8 * sizeof(typename Pairs::Set), "spate: a set has a bit for each lane");
 
 public:
-    /// \param first  row of the lists
-    [[gnu::always_inline]] BlockMemory(Pairs& pairs, std::size_t block, std::size_t first, Carry const& carry)
-        : pairs_(pairs), block_(block), set_(pairs.set.data() + first), from_(pairs.of(block)), to_(pairs.of(block)),
-          carry_(carry)
-    {}
+    /// \param first, last  rows of the lists
+    [[gnu::always_inline]] BlockMemory(Pairs& pairs, std::size_t block, std::size_t first, std::size_t last,
+                                       Carry const& carry)
+        : pairs_(pairs), block_(block), set_(pairs.set.data() + first), from_(pairs.of(block)), carry_(carry)
+    {
+        static thread_local Array<T> aside;
+        const std::size_t most = ((last - first) * values + 1) * std::size_t(width<V>);
+        if (aside.size() < most) aside.resize(most);
+        begin_ = to_ = aside.data();
+    }
     /// The next row has no pair that touches.
     [[gnu::always_inline]] void skip() { next(0); }
     /// What is kept of the pairs of the next row.
@@ -61,7 +67,8 @@ public:
         kept.record.elapsed = V(carry_.elapsed);
         const SomeLanes<V> lanes(*set_);
         const std::size_t each = Pairs::count(*set_);
-        __builtin_prefetch(from_ + 1024 / sizeof(T)); // the next block's
+        for (std::size_t ahead : {1024, 1088})
+            __builtin_prefetch(from_ + ahead / sizeof(T)); // [bytes]: the next block's
         kept.each([&](V & v, int k) __attribute__((always_inline)) { v = lanes.load(from_ + std::size_t(k) * each); });
         return kept;
     }
@@ -70,26 +77,31 @@ public:
     {
         if (carry_.keep) {
             if (carry_.reach != 1) go_on(kept);
-            const auto now = std::size_t(std::popcount(touching)), room = read_ + Pairs::count(*set_);
-            if (written_ + now > (moved_ ? pairs_.room(block_) : room)) make_way(now);
+            const auto now = std::size_t(std::popcount(touching));
             const SomeLanes<V> lanes(touching);
-            kept.each([&](V const& v, int k) __attribute__((always_inline)) {
-                lanes.store(to_ + written_ * values + std::size_t(k) * now, v);
-            });
-            written_ += now;
+            kept.each([&](V const& v, int k)
+                          __attribute__((always_inline)) { lanes.store(to_ + std::size_t(k) * now, v); });
+            to_ += now * values;
         }
         next(touching);
+    }
+    /// All rows are done.
+    [[gnu::always_inline]] void finish()
+    {
+        if (!carry_.keep) return;
+        const auto n = std::size_t(to_ - begin_);
+        if (n > pairs_.room(block_) * values) pairs_.grow(block_, n / values);
+        std::copy_n(static_cast<T const*>(begin_), n, pairs_.of(block_));
     }
 
 private:
     [[gnu::always_inline]] void next(unsigned touching)
     {
-        const std::size_t was = Pairs::count(*set_);
-        read_ += was, from_ += was * values;
+        from_ += Pairs::count(*set_) * values;
         if (carry_.keep) *set_ = typename Pairs::Set(touching);
         ++set_;
     }
-    [[gnu::always_inline]] void go_on(Kept<Dim, V, S>& kept)
+    [[gnu::noinline]] void go_on(Kept<Dim, V, S>& kept)
     {
         const SomeLanes<V> lanes(*set_);
         const std::size_t each = Pairs::count(*set_);
@@ -98,31 +110,17 @@ private:
             v = was + carry_.reach * (v - was);
         });
     }
-    /// More pairs touch than did: what is still to be read is put aside.
-    [[gnu::noinline]] void make_way(std::size_t now)
-    {
-        static thread_local Array<T> aside;
-        if (!moved_) {
-            aside.reserve(1); // so that it is somewhere
-            aside.assign(from_, static_cast<T const*>(to_) + pairs_.room(block_) * values);
-            from_ = aside.data(), moved_ = true;
-        }
-        if (written_ + now <= pairs_.room(block_)) return;
-        pairs_.grow(block_, written_ + now);
-        to_ = pairs_.of(block_);
-    }
     Pairs& pairs_;
     std::size_t block_;
     typename Pairs::Set* set_;
     T const* from_;
-    T* to_;
-    std::size_t read_ = 0, written_ = 0;
-    bool moved_ = false;
+    T *begin_, *to_; ///< aside
     Carry carry_;
 };
 /// Nothing is kept.
 struct NoMemory {
     static void skip() {}
+    static void finish() {}
 };
 } // namespace detail
 

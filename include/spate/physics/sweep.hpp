@@ -74,7 +74,9 @@ template <class V, class I, class Tuple, class Ri, class Ui, class A, class Src>
     auto memory = [&]() __attribute__((always_inline))
     {
         if constexpr (Src::Kept::size == 0) return Memory{};
-        else return Memory((*source.memory)[cell], block, std::size_t(lists.begin[block]), source.carry);
+        else
+            return Memory((*source.memory)[cell], block, std::size_t(lists.begin[block]),
+                          std::size_t(lists.begin[block + 1]), source.carry);
     }
     ();
     A mine = sums; // a copy in registers: g++ would store sums to the stack with each pack
@@ -104,6 +106,7 @@ template <class V, class I, class Tuple, class Ri, class Ui, class A, class Src>
             else memory.store(kept, (1u << width<V>)-1);
         }
     }
+    memory.finish();
     sums = mine;
 }
 /// What pairs read of both sides, and the records of a species hold.
