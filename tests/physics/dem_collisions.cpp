@@ -247,4 +247,22 @@ TEST(Mindlin, SlidesAtTheLimitOfChungAndOoi)
     }
 }
 
+// Whole packs of grains that touch nobody, and of some that do: gravity acts on each, and pushes on those that touch only.
+TEST(DemCollisions, GravityActsOnThoseThatTouchNobody)
+{
+    const Vec<2, double> g{1, -9.81};
+    Simulation s(dem<2>({.mass = 0.1, .radius = 0.01}, LinearSpring{.k = 1e5}, Gravity<2>{g}), SymplecticEuler{},
+                 Open{}, Serial{});
+    for (int k = 0; k < 900; ++k) // each ninth is pressed against the one before it
+        s.add({0.03 * (k % 30) - (k % 9 == 0 ? 0.0105 : 0), 0.03 * (k / 30)});
+    s.run({.steps = 1, .dt = 1e-4});
+    auto const& p = s.particles();
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        const auto k = int(p.id()[i]);
+        const bool pressed = k % 9 == 0 && k % 30 != 0, presses = (k + 1) % 9 == 0 && (k + 1) % 30 != 0;
+        const double push = (presses ? -1 : pressed ? 1 : 0) * 1e5 * 0.0005 / 0.1;
+        EXPECT_NEAR(p.at(velocity, i)[0], (g[0] + push) * 1e-4, 1e-12) << k;
+        EXPECT_NEAR(p.at(velocity, i)[1], g[1] * 1e-4, 1e-15) << k;
+    }
+}
 } // namespace

@@ -54,6 +54,22 @@ template <class I, class Ri, class Ui, class Rj, class Uj>
     if constexpr (requires { interaction.touch(i, j); }) return spate::any(interaction.touch(i, j));
     else return true;
 }
+/// Asks for the records that lists name some blocks after entry `at`.
+template <class I, class V, class L>
+[[gnu::always_inline]] inline void ask_for_records(scalar_t<V> const* base, Array<std::int32_t> const& index,
+                                                   std::size_t at)
+{
+    // The next blocks' first sight of a row of bins is a miss. In bins that are fine the lanes share lines, so that one lane
+    // asks for all; in others each asks for its own.
+    constexpr bool each_lane = short_lists<I> && I::dim > 2;
+    constexpr std::size_t ahead = (short_lists<I> ? 16 : 48) * std::size_t(width<V>);
+    if constexpr (short_lists<I>) __builtin_prefetch(index.data() + at + 4 * ahead); // one cell's are soon at their end
+    const std::size_t last = index.size() - std::size_t(each_lane ? width<V> : 1);
+    std::int32_t const* const later = index.data() + std::min(at + ahead, last);
+    for (int l = 0; l < (each_lane ? width<V> : 1); ++l)
+        for (int f = 0; f < (each_lane ? L::stride : 1); f += 64 / int(sizeof(scalar_t<V>)))
+            __builtin_prefetch(base + std::uint32_t(later[l]) + f);
+}
 /// The neighbours of one block of targets in one source.
 template <class V, class I, class Tuple, class Ri, class Ui, class A, class Src>
 [[gnu::always_inline]] inline void over(I const& interaction, Tuple const& all, Ri const& ri, Ui const& ui, A& sums,
@@ -65,11 +81,6 @@ template <class V, class I, class Tuple, class Ri, class Ui, class A, class Src>
     scalar_t<V> const* base = source.packed.data.data();
     std::int32_t const* const index = lists.index.data();
     const auto end = std::size_t(lists.begin[block + 1]) * std::size_t(width<V>);
-    // The next blocks' first sight of a row of bins is a miss. In bins that are fine the lanes share lines, so that one lane
-    // asks for all; in others each asks for its own.
-    constexpr bool each_lane = short_lists<I> && I::dim > 2;
-    constexpr std::size_t ahead = (short_lists<I> ? 16 : 48) * std::size_t(width<V>);
-    const std::size_t last = lists.index.size() - std::size_t(each_lane ? width<V> : 1);
     using Memory = std::conditional_t<Src::Kept::size == 0, NoMemory, BlockMemory<I::dim, V, typename Src::Kept>>;
     auto memory = [&]() __attribute__((always_inline))
     {
@@ -81,11 +92,7 @@ template <class V, class I, class Tuple, class Ri, class Ui, class A, class Src>
     ();
     A mine = sums; // a copy in registers: g++ would store sums to the stack with each pack
     for (auto at = std::size_t(lists.begin[block]) * std::size_t(width<V>); at != end; at += std::size_t(width<V>)) {
-        if constexpr (short_lists<I>) __builtin_prefetch(index + at + 4 * ahead); // one cell's are soon at their end
-        std::int32_t const* const later = index + std::min(at + ahead, last);
-        for (int l = 0; l < (each_lane ? width<V> : 1); ++l)
-            for (int f = 0; f < (each_lane ? L::stride : 1); f += 64 / int(sizeof(scalar_t<V>)))
-                __builtin_prefetch(base + std::uint32_t(later[l]) + f);
+        ask_for_records<I, V, L>(base, lists.index, at);
         const auto rj = gathered<V>(base, index + at, L{});
         constexpr auto terms = std::make_index_sequence<std::tuple_size_v<Tuple>>{};
         if (!may_meet<I>(interaction, ri, ui, rj, uj)) {
@@ -168,6 +175,86 @@ template <Mask terms, class V, class I, class Ri, class Ui, class A, class... T,
     };
     (one(std::integral_constant<std::size_t, t>{}), ...);
 }
+/// Whether that is any of them.
+template <Mask terms, class... T, std::size_t... t>
+constexpr bool acts_without_pairs(std::tuple<T...> const*, std::index_sequence<t...>)
+{
+    return (false || ... || (picked<terms, t> && (!PairTerm<T> || has_self<T>)));
+}
+/// Whether a sweep first looks who touches: most rows of short lists have no pair that does, and which have one is what a
+/// processor cannot foresee.
+template <class I, class... Src>
+inline constexpr bool looks_first = false;
+template <class I, class Src>
+requires(Src::itself&& Src::Kept::size == 0) inline constexpr bool looks_first<I, Src> =
+    short_lists<I> && requires(I const& interaction, Record<I::dim, double, Set<I::reads>> const& i)
+{
+    interaction.touch(i, i);
+};
+/// All pairs of the first blocks of a cell, which lie in order: first which rows touch, without a branch, then those.
+template <class V, Mask terms, class Sums, class Target, class I, class Tuple, class Ui, class P, class Src>
+[[gnu::always_inline]] inline void over_touching(I const& interaction, Tuple const& all, Ui const& ui, P& particles,
+                                                 std::int32_t first, std::size_t cell, std::size_t blocks,
+                                                 bool passes_follow, Src const& source)
+{
+    using L = typename Src::L;
+    struct Row {
+        std::int32_t target, at; ///< first target of its block, place in the lists
+    };
+    static thread_local std::vector<Row> rows;
+    constexpr auto each = std::make_index_sequence<std::tuple_size_v<Tuple>>{};
+    constexpr std::int32_t W = width<V>, later = 16 * W;
+    auto const& lists = source.lists.of_cell(cell);
+    scalar_t<V> const* const base = source.packed.data.data();
+    std::int32_t const* const index = lists.index.data();
+    const auto uj = source.particles.template uniforms<V>();
+    if (rows.size() <= std::size_t(lists.begin[blocks])) rows.resize(std::size_t(lists.begin[blocks]) + 1);
+    Row* touching = rows.data(); // beyond the last
+    auto targets = [&](std::int32_t i) __attribute__((always_inline))
+    {
+        return targets_at<V, I, Tuple, Target>(particles, i, source);
+    };
+    for (std::size_t block = 0; block < blocks; ++block) {
+        const std::int32_t i = first + std::int32_t(block) * W;
+        if (passes_follow) particles.ask_for(std::size_t(std::min(i + later, std::int32_t(particles.size()) - 1)));
+        Record<P::dim, V, Sums> sums;
+        clear(sums);
+        for_each(
+            Sums{}, [&](auto f)
+                        __attribute__((always_inline)) { particles.template store_at<V>(f, std::size_t(i), sums[f]); });
+        const auto ri = targets(i);
+        for (std::int32_t at = lists.begin[block] * W; at != lists.begin[block + 1] * W; at += W) {
+            ask_for_records<I, V, L>(base, lists.index, std::size_t(at));
+            const auto rj = gathered<V>(base, index + at, L{});
+            *touching = {i, at};
+            touching += may_meet<I>(interaction, ri, ui, rj, uj);
+        }
+    }
+    // Sums go through memory: two rows of a block may follow each other, or not.
+    auto with_sums = [&](std::int32_t i, auto const& add) __attribute__((always_inline))
+    {
+        Record<P::dim, V, Sums> sums;
+        for_each(
+            Sums{}, [&](auto f)
+                        __attribute__((always_inline)) { sums[f] = particles.template load_at<V>(f, std::size_t(i)); });
+        add(targets(i), sums);
+        for_each(
+            Sums{}, [&](auto f)
+                        __attribute__((always_inline)) { particles.template store_at<V>(f, std::size_t(i), sums[f]); });
+    };
+    for (Row const* row = rows.data(); row != touching; ++row)
+        with_sums(
+            row->target, [&](auto const& ri, auto& sums) __attribute__((always_inline)) {
+                const auto rj = gathered<V>(base, index + row->at, L{});
+                apply_all<Src::terms>(all, ri, ui, rj, uj, sums, pair_of<I, V>(interaction, ri, ui, rj, uj), each);
+            });
+    if constexpr (acts_without_pairs<terms>(static_cast<Tuple const*>(nullptr), each))
+        for (std::size_t block = 0; block < blocks; ++block)
+            with_sums(
+                first + std::int32_t(block) * W, [&](auto const& ri, auto& sums) __attribute__((always_inline)) {
+                    with_itself<terms, V>(interaction, all, ri, ui, sums, each);
+                });
+}
 } // namespace detail
 
 /// Runs the picked terms on all targets of one cell: the unit of work. Flattened: terms are inlined however large the
@@ -230,7 +317,13 @@ template <class V, Mask terms, class Sums, class Target, class I, class Tuple, c
     // last targets are those of another task.
     std::size_t whole = 0;
     if constexpr (short_lists<I>)
-        if (lists.in_order) run(std::true_type{}, 0, whole = std::size_t(targets / width<V>));
+        if (lists.in_order) {
+            whole = std::size_t(targets / width<V>);
+            if constexpr (detail::looks_first<I, Src...>)
+                detail::over_touching<V, terms, Sums, Target>(interaction, all, ui, particles, first, cell, whole,
+                                                              passes_follow, source...);
+            else run(std::true_type{}, 0, whole);
+        }
     run(std::false_type{}, whole, blocks);
 }
 
