@@ -67,7 +67,7 @@ public:
         kept.record.elapsed = V(carry_.elapsed);
         const SomeLanes<V> lanes(*set_);
         const std::size_t each = Pairs::count(*set_);
-        for (std::size_t ahead : {1024, 1088})
+        for (const std::size_t ahead : {1024u, 1088u})
             __builtin_prefetch(from_ + ahead / sizeof(T)); // [bytes]: the next block's
         kept.each([&](V & v, int k) __attribute__((always_inline)) { v = lanes.load(from_ + std::size_t(k) * each); });
         return kept;
