@@ -18,6 +18,7 @@
 #include "spate/physics/time_step.hpp"
 
 #include <atomic>
+#include <bit>
 #include <chrono>
 #include <functional>
 #include <numbers>

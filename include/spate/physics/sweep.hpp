@@ -175,7 +175,7 @@ template <Mask terms, class V, class I, class Ri, class Ui, class A, class... T,
     };
     (one(std::integral_constant<std::size_t, t>{}), ...);
 }
-/// Whether that is any of them.
+/// Whether any of the picked terms is such.
 template <Mask terms, class... T, std::size_t... t>
 constexpr bool acts_without_pairs(std::tuple<T...> const*, std::index_sequence<t...>)
 {
