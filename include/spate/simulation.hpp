@@ -13,8 +13,8 @@
 #include "spate/measure/wall_force.hpp"
 #include "spate/measure/watch.hpp"
 #include "spate/physics/advice.hpp"
+#include "spate/physics/measures.hpp"
 #include "spate/physics/sph/rest.hpp"
-#include "spate/physics/system.hpp"
 #include "spate/physics/time_step.hpp"
 
 #include <atomic>

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "spate/physics/decomposition.hpp"
-#include "spate/physics/system.hpp"
+#include "spate/physics/measures.hpp"
 
 #include <cmath>
 #include <map>

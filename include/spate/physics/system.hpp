@@ -544,37 +544,9 @@ public:
         return pair_energy([](std::size_t, std::size_t) { return 0.5; });
     }
     /// The same with the share of the directed pair of particles i, j that counts; an image counts as its particle.
-    [[nodiscard]] double pair_energy([[maybe_unused]] auto const& share) const
-    {
-        ExactSum total;
-        std::mutex lock;
-        if constexpr (M::planner.meet(0, 0) && has_pair_energy) {
-            if (alone && species<0>().bins.cells() > 0 && !lists_know_all())
-                throw std::logic_error("spate: particles came or went since the lists were built; call "
-                                       "make_lists_current() before energy()");
-            bring_records<0, M::mask(read_for_energy()) & M::planner.record(0)>();
-            backend_.for_each(species<0>().bins.cells(), [&](std::size_t cell) {
-                const ExactSum mine = pair_energy_of(cell, share);
-                const std::lock_guard hold(lock);
-                total += mine;
-            });
-        }
-        return ranks().all(total, agree::Sum{}).value();
-    }
+    [[nodiscard]] double pair_energy([[maybe_unused]] auto const& share) const;
     /// Which of the mobile particles are meant, of others' too: theirs from n + 1. Lists must be current.
-    [[nodiscard]] std::vector<char> with_foreign(std::vector<char> is) const
-    {
-        if constexpr (!alone) {
-            auto& parts = const_cast<Parts&>(parts_); // messages are no state
-            const std::size_t n = is.size();
-            is.resize(n + 1 + parts_.foreign(0).places.size, 0);
-            parts.send(
-                0, 1, [&](std::int32_t i, PairT* to) { *to = PairT(is[std::size_t(i)]); },
-                [&is, n](std::int32_t i, PairT const* from) { is[n + 1 + std::size_t(i)] = char(*from); });
-            parts.finish(0);
-        }
-        return is;
-    }
+    [[nodiscard]] std::vector<char> with_foreign(std::vector<char> is) const;
     /// What a mobile particle stores in walls that it touches, wall_energy(i) of a term [J].
     [[nodiscard]] double wall_energy_of(std::size_t i) const
     {
@@ -599,21 +571,7 @@ public:
         else return 0;
     }
     /// What terms of a boundary without markers do to the particles: f(i, sums) with all that they add to particle i.
-    void wall_sums(auto const& f) const
-    {
-        using Sums = Record<dim, double, Set<(Fields<>{} | M::wall_adds)>>;
-        auto terms = terms_;
-        carry_at_walls(terms, Carry{due_});
-        for (std::size_t i = 0; i < mobile().size(); ++i) {
-            Sums sums;
-            clear(sums);
-            Pushing<Sums> view{{mobile(), i}, sums};
-            detail::each_in(terms, [&]<class X>(X const& t) {
-                if constexpr (requires { X::pushes; }) t(view);
-            });
-            f(i, sums);
-        }
-    }
+    void wall_sums(auto const& f) const;
     /// Sends back what has gone through elastic walls.
     void reflect() requires(reflects)
     {
@@ -627,19 +585,7 @@ public:
     /// The sum of what visit(sum, i, j, x, ij, force) makes of each directed contact i <- j of mobile particles: x = x_i - x_j
     /// [m], ij what terms see, force on i [N]. Lists must be current. Cells come in any order, so a Sum must not depend on it.
     template <class Sum>
-    [[nodiscard]] Sum over_contacts(auto const& visit) const
-    {
-        static_assert(M::planner.meet(0, 0), "spate: contacts need a pair term, such as LinearSpring");
-        Sum total{};
-        std::mutex lock;
-        backend_.for_each(species<0>().bins.cells(), [&](std::size_t cell) {
-            Sum mine{};
-            each_contact(cell, [&](auto const&... what) { visit(mine, what...); });
-            const std::lock_guard hold(lock);
-            total += mine;
-        });
-        return total;
-    }
+    [[nodiscard]] Sum over_contacts(auto const& visit) const;
     /// The mobile particle behind a record other than the sentinel; others' particles are numbered from n + 1.
     std::size_t particle_of(std::size_t j) const
     {
@@ -658,99 +604,15 @@ public:
     /// Others' particles as they are now, by number; all ranks call it.
     [[nodiscard]] std::vector<Near> others() const;
     /// Who is behind a record other than the sentinel, at the place of the image that meets. \param others  as above
-    [[nodiscard, gnu::cold]] Near near(std::size_t j, [[maybe_unused]] std::vector<Near> const& others) const
-    {
-        auto const& p = mobile();
-        const std::size_t n = p.size();
-        auto moved = [&](Near one, auto const& images, std::size_t image) {
-            one.x += shift_of(images.code[image], grid_);
-            return one;
-        };
-        if constexpr (!alone) {
-            const auto foreign = parts_.foreign(0);
-            if (j >= std::size_t(foreign.first)) {
-                const std::size_t k = foreign.number_of(j), record = j - std::size_t(foreign.first);
-                return record == k ? others[k] : moved(others[k], foreign.bins.images(), record - foreign.places.size);
-            }
-        }
-        auto const& images = species<0>().bins.images();
-        const std::size_t i = j < n ? j : std::size_t(images.of[j - n - 1]);
-        const Near one{p.at(position, i), radius_at<double>(i), p.id()[i]};
-        return j < n ? one : moved(one, images, j - n - 1);
-    }
+    [[nodiscard, gnu::cold]] Near near(std::size_t j, [[maybe_unused]] std::vector<Near> const& others) const;
     /// Bytes of all that is kept for the particles: columns, records, lists, bins.
-    [[nodiscard, gnu::cold]] std::size_t bytes() const
-    {
-        std::size_t b = 0;
-        each_species([&](auto s) {
-            auto const& x = species<s()>();
-            b += x.particles.bytes() + x.start.bytes() + x.bins.bytes() + x.packed.data.capacity() * sizeof(PairT);
-        });
-        for (auto const& l : lists_) b += l.bytes();
-        std::apply(
-            [&](auto const&... of_species) {
-                auto one = [&](auto const& cells) {
-                    if constexpr (requires { cells.size(); })
-                        for (auto const& of_cell : cells) b += of_cell.bytes();
-                };
-                (one(of_species), ...);
-            },
-            memory_);
-        std::apply([&](auto const&... aside) { ((b += aside.bytes()), ...); }, aside_);
-        b += skins_.bytes();
-        return b;
-    }
+    [[nodiscard, gnu::cold]] std::size_t bytes() const;
     /// Sum modulo 2^64 over all particles of a hash of (species, id, bits of the evolving fields and of what is kept at walls),
     /// and over all pairs of (ids, bits of what terms keep of them).
-    [[nodiscard, gnu::cold]] std::uint64_t state_hash() const
-    {
-        std::uint64_t total = 0;
-        each_species([&](auto s) {
-            auto const& p = species<s()>().particles;
-            for (std::size_t i = 0; i < counted<s()>(); ++i) {
-                std::uint64_t h = mix(mix(std::uint64_t(s()) + 1) + p.id()[i]);
-                for_each(M::template evolving<s()>() | M::template remembered<s()>(), [&](auto f) {
-                    for (auto const& column : p.column(f)) {
-                        std::uint64_t bits = 0;
-                        std::memcpy(&bits, &column[i], sizeof(T));
-                        h = mix(h ^ bits);
-                    }
-                });
-                total += h;
-            }
-        });
-        each_species([&](auto s) {
-            each_species([&](auto q) {
-                constexpr int values = kept_values<s(), q()>;
-                if constexpr (values > 0) {
-                    for (auto const& pair : kept_of_pairs<s(), q()>()) {
-                        std::uint64_t h =
-                            mix(mix(mix(std::uint64_t(s() * species_count + q()) + 17) + pair.i) + pair.j);
-                        for (T value : pair.value) {
-                            std::uint64_t bits = 0;
-                            std::memcpy(&bits, &value, sizeof(T));
-                            h = mix(h ^ bits);
-                        }
-                        total += h;
-                    }
-                }
-            });
-        });
-        if constexpr (M::floats)
-            if (ranks().rank() == 0) total += hash_of_bodies();
-        return ranks().all(total, agree::Sum{});
-    }
+    [[nodiscard, gnu::cold]] std::uint64_t state_hash() const;
     /// What terms keep of the directed pairs s <- q, in the order of their ids; pairs of which it is zero are not there.
     template <int s, int q>
-    [[nodiscard, gnu::cold]] auto kept_of_pairs() const
-    {
-        auto now = std::get<std::size_t(s * species_count + q)>(aside_);
-        if (have_lists_)
-            now.take(lists<s, q>(), std::get<std::size_t(s * species_count + q)>(memory_), species<s>().particles,
-                     species<s>().bins, species<q>().particles, species<q>().bins, width<PairV>, backend_,
-                     foreign<q>());
-        return now.pairs();
-    }
+    [[nodiscard, gnu::cold]] auto kept_of_pairs() const;
     /// Makes room for the particles that have been added since.
     [[gnu::cold]] void resized()
     {
@@ -795,24 +657,7 @@ public:
     /// The sums of chosen terms on the mobile particles over one source only, without touching the rates: the force of a
     /// wall. `finish(i, sums)` is called for each particle with the sums as double.
     template <int source>
-    [[gnu::cold]] void partial_sums(auto const& finish)
-    {
-        static constexpr Mask pair_terms = pair_terms_from(source);
-        auto& p = mobile();
-        constexpr auto sums = M::template fields<added(pair_terms)>();
-        Particles<dim, T, Set<sums>, Fields<>> kept;
-        kept.resize(p.size());
-        for_each(sums, [&](auto f) {
-            for (std::size_t c = 0; c < std::size(p.column(f)); ++c) kept.column(f)[c] = p.column(f)[c];
-        });
-        pack<source, M::planner.record(source)>();
-        sweep<0, pair_terms, Mask(1) << source>();
-        if constexpr (!alone) parts_.finish();
-        for (std::size_t i = 0; i < p.size(); ++i) finish(i, p);
-        for_each(sums, [&](auto f) {
-            for (std::size_t c = 0; c < std::size(p.column(f)); ++c) p.column(f)[c] = kept.column(f)[c];
-        });
-    }
+    [[gnu::cold]] void partial_sums(auto const& finish);
 
 private:
     using Pass = std::function<void(System&, std::size_t first, std::size_t last)>;
@@ -999,104 +844,15 @@ private:
     }(static_cast<typename M::Terms const*>(nullptr));
     /// Of the targets in a cell, from records of now. Both copies of a pair store the same: one is counted, but for images and
     /// others' particles.
-    [[nodiscard]] ExactSum pair_energy_of(std::size_t cell, auto const& share) const
-    {
-        auto const& p = mobile();
-        auto const& lists = this->template lists<0, 0>().of_cell(cell);
-        auto const& packed = species<0>().packed;
-        using L = typename std::remove_cvref_t<decltype(packed)>::L;
-        constexpr auto W = std::size_t(width<PairV>);
-        PairT const* const base = packed.data.data();
-        const auto u = p.template uniforms<PairV>();
-        const std::size_t n = p.size(), first = std::size_t(species<0>().bins.begin(cell));
-        const auto most2 = PairT(physics_.interaction.range() * physics_.interaction.range() * (1 + 1e-5));
-        ExactSum sum;
-        for (std::size_t block = 0; block + 1 < lists.begin.size(); ++block) {
-            std::array<std::int32_t, W> at;
-            for (std::size_t lane = 0; lane < W; ++lane)
-                at[lane] = (std::int32_t(first) + lists.target_of(block * W + lane)) * L::stride;
-            const auto ri = gathered<PairV>(base, at.data(), L{});
-            for (auto row = std::size_t(lists.begin[block]); row < std::size_t(lists.begin[block + 1]); ++row) {
-                const auto rj = gathered<PairV>(base, lists.index.data() + row * W, L{});
-                const auto x =
-                    detail::seen_by<Interaction>(ri, u)[position] - detail::seen_by<Interaction>(rj, u)[position];
-                for (unsigned near = bits(x.squaredNorm() < PairV(most2)); near != 0; near &= near - 1) {
-                    const auto lane = std::size_t(std::countr_zero(near));
-                    const std::size_t j = std::uint32_t(lists.index[row * W + lane]) / std::uint32_t(L::stride);
-                    const std::size_t i = std::size_t(at[lane]) / std::size_t(L::stride);
-                    if (j <= i || j == n) continue;
-                    const std::size_t of = particle_of(j);
-                    const double part = share(i, of) + (j < n ? share(j, i) : 0);
-                    if (part != 0)
-                        add_pair_energy(sum, part, cell, block, row, lane, record_of_now(i),
-                                        j < n ? record_of_now(j) : double_record_of(j));
-                }
-            }
-        }
-        return sum;
-    }
+    [[nodiscard]] ExactSum pair_energy_of(std::size_t cell, auto const& share) const;
     /// The exact sum of what fill(what, ...) writes, a stretch of particles at a time; compiled once for all that is summed.
     [[gnu::noinline]] double sum_of(void (*fill)(void const*, std::size_t, std::size_t, double*),
-                                    void const* what) const
-    {
-        ExactSum total;
-        std::mutex lock;
-        const std::size_t n = counted<0>();
-        backend_.for_each((n + task - 1) / task, [&](std::size_t k) {
-            std::array<double, task> addend;
-            const std::size_t first = k * task, last = std::min(n, first + task);
-            fill(what, first, last, addend.data());
-            ExactSum mine;
-            for (std::size_t i = 0; i < last - first; ++i) mine.add(addend[i]);
-            const std::lock_guard hold(lock);
-            total += mine;
-        });
-        return ranks().all(total, agree::Sum{}).value();
-    }
+                                    void const* what) const;
     /// Of particle i; from its record, which is current and one place, where that is as exact as its columns.
-    auto record_of_now(std::size_t i) const
-    {
-        auto const& p = mobile();
-        if constexpr (!std::same_as<PairT, T>) return double_record(p, i);
-        else {
-            auto r = packed_record(i);
-            for_each(r.fields - decltype(species<0>().packed)::L::fields, [&](auto f) { r[f] = p.at(f, i); });
-            return r;
-        }
-    }
+    auto record_of_now(std::size_t i) const;
     /// Of the mobile particle behind a record other than the sentinel, as it is now.
-    auto double_record_of(std::size_t j) const
-    {
-        auto const& p = mobile();
-        auto const& images = species<0>().bins.images();
-        const std::size_t n = p.size();
-        if constexpr (!alone) {
-            const auto foreign = parts_.foreign(0);
-            if (j >= std::size_t(foreign.first)) {
-                const std::size_t k = foreign.number_of(j), image = j - std::size_t(foreign.first);
-                auto r = packed_record(std::size_t(foreign.first) + k);
-                if (image != k) r[position] += shift_of(foreign.bins.images().code[image - foreign.places.size], grid_);
-                return r;
-            }
-        }
-        auto r = double_record(p, j < n ? j : std::size_t(images.of[j - n - 1]));
-        if (j > n) r[position] += shift_of(images.code[j - n - 1], grid_);
-        return r;
-    }
-    auto packed_record(std::size_t j) const
-    {
-        auto const& packed = species<0>().packed;
-        using L = typename std::remove_cvref_t<decltype(packed)>::L;
-        Record<dim, double, Set<(read_for_energy() & ParticlesOf<0>::fields)>> r;
-        clear(r); // what is read of the target only is in no record
-        for_each(r.fields & L::fields, [&]<class F>(F f) {
-            T const* at = packed.data.data() + j * std::size_t(L::stride) + L::template offset<F>;
-            if constexpr (F::rank == 0) r[f] = double(*at);
-            else
-                for (int c = 0; c < components<F, dim>; ++c) r[f][c] = double(at[c]);
-        });
-        return r;
-    }
+    auto double_record_of(std::size_t j) const;
+    auto packed_record(std::size_t j) const;
     /// Tells terms that keep something of contacts with walls what a sweep does with it.
     static void carry_at_walls(typename M::Terms& terms, Carry const& carry)
     {
@@ -1142,58 +898,10 @@ private:
         return m;
     }
     /// f(i, j, x, ij, force) for the contacts of one cell's particles, by the terms in double; memory is shown, not kept.
-    void each_contact(std::size_t cell, auto const& f) const
-    {
-        static constexpr Mask terms = pair_terms_from(0);
-        using Ri = Record<dim, double, Set<M::template fields<read_of_target(terms, 0)>()>>;
-        using Rj = Record<dim, double, Set<M::template record<0>()>>;
-        using K = Set<kept<0, 0>()>;
-        auto const& p = mobile();
-        auto const& images = species<0>().bins.images();
-        auto const& all = this->template lists<0, 0>();
-        auto const& lists = all.of_cell(cell);
-        const auto u = p.template uniforms<double>();
-        const auto first = std::size_t(species<0>().bins.begin(cell)), n = p.size(), W = std::size_t(width<PairV>);
-        for (std::size_t b = 0; b + 1 < lists.begin.size(); ++b)
-            for (auto row = std::size_t(lists.begin[b]); row < std::size_t(lists.begin[b + 1]); ++row)
-                for (std::size_t lane = 0; lane < W; ++lane) {
-                    const std::size_t entry = all.number(lists.index[row * W + lane]);
-                    if (entry == n) continue;
-                    const std::size_t i = first + std::size_t(lists.target_of(b * W + lane));
-                    const std::size_t j = entry < n ? entry : std::size_t(images.of[entry - n - 1]);
-                    Ri ri = record_in_double<Ri>(p, i);
-                    Rj rj = record_in_double<Rj>(p, j);
-                    if (entry > n) rj[position] += shift_of(images.code[entry - n - 1], grid_);
-                    const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, u, rj, u);
-                    if (!ij.mask) continue;
-                    typename detail::Kept<dim, double, K>::Seen seen;
-                    seen.elapsed = due_;
-                    remembered<K>(seen, cell, b, row, lane);
-                    Record<dim, double, Set<M::template fields<added(terms)>()>> sums;
-                    clear(sums);
-                    detail::apply_all<terms>(terms_, ri, u, rj, u, sums, ij,
-                                             std::make_index_sequence<std::size_t(M::terms)>{}, &seen);
-                    f(i, j, ri[position] - rj[position], ij, p.at(mass, i) * sums[acceleration]);
-                }
-    }
+    void each_contact(std::size_t cell, auto const& f) const;
     /// What is kept of the pair at a place of the lists of the mobile particles; zero where it does not touch.
     template <class K>
-    void remembered(auto& to, std::size_t cell, std::size_t block, std::size_t row, std::size_t lane) const
-    {
-        if constexpr (K::size > 0) {
-            using L = Layout<dim, K>;
-            auto const& memory = std::get<0>(memory_)[cell];
-            T const* const values = memory.find(this->template lists<0, 0>().of_cell(cell), block, row, lane);
-            const auto value = [&](int k) {
-                return values == nullptr ? 0 : double(values[std::size_t(k) * memory.count(memory.set[row])]);
-            };
-            for_each(K{}, [&]<class F>(F field) {
-                if constexpr (F::rank == 0) to[field] = value(L::template offset<F>);
-                else
-                    for (int c = 0; c < components<F, dim>; ++c) to[field][c] = value(L::template offset<F> + c);
-            });
-        }
-    }
+    void remembered(auto& to, std::size_t cell, std::size_t block, std::size_t row, std::size_t lane) const;
     template <class R>
     static R record_in_double(auto const& p, std::size_t i)
     {
@@ -1220,27 +928,7 @@ private:
     }
     /// \param part  of the energy of a pair that counts
     void add_pair_energy(ExactSum& sum, double part, std::size_t cell, std::size_t block, std::size_t row,
-                         std::size_t lane, auto const& ri, auto const& rj) const
-    {
-        const auto u = mobile().template uniforms<double>();
-        const auto ij = detail::pair_of<Interaction, double>(physics_.interaction, ri, u, rj, u);
-        if constexpr (requires { ij.mask; })
-            if (!ij.mask) return;
-        using Seen = typename detail::Kept<dim, double, Set<kept<0, 0>()>>::Seen;
-        Seen seen;
-        seen.elapsed = due_;
-        remembered<Set<kept<0, 0>()>>(seen, cell, block, row, lane);
-        detail::each_in(terms_, [&]<class X>(X const& t) {
-            if constexpr (requires { t.energy(ij); }) sum.add(part * t.energy(ij));
-            else if constexpr (stores_energy<X>) {
-                Record<dim, double, Set<adds<X>()>> sums;
-                clear(sums);
-                if (due_ != 0) detail::apply(t, ri, u, rj, u, sums, ij, &seen); // it comes along to where positions are
-                detail::with_views<X>(ri, u, rj, u, sums, ij, &seen,
-                                      [&](auto const& a, auto const& b) { sum.add(part * t.energy(a, b, ij)); });
-            }
-        });
-    }
+                         std::size_t lane, auto const& ri, auto const& rj) const;
     static std::uint64_t mix(std::uint64_t z) // splitmix64 (Steele, Lea & Flood 2014)
     {
         z += 0x9E3779B97F4A7C15u;
