@@ -21,7 +21,7 @@ namespace {
 using namespace spate;
 
 constexpr double r = 0.01, m = 0.1, g = 9.81; // largest radius [m], mass of a grain of it [kg], gravity [m/s^2]
-constexpr int across = 16;                    // grains in the width of a column
+constexpr int across = 32; // grains in the width of a column: with 16 the tip of low heaps comes loose
 constexpr double wide = across * 2 * r;
 constexpr LinearSpring spring{.k = 1e6}; // the weight of 200 grains presses the lowest by a fiftieth of their radius
 constexpr Dashpot dashpot{.e = 0.5};
@@ -30,7 +30,7 @@ constexpr Friction friction{.mu = 0.5};
 auto channel(Box<2> const& box)
 {
     return Simulation(dem<2>(Mixture{.largest = r}, spring, dashpot, friction, Gravity<2>{{0, -g}}), Leapfrog{},
-                      Walls(box, contact(spring, dashpot, friction), open(top)), Serial{}, Double{}, Watch{},
+                      Walls(box, contact(spring, dashpot, friction), open(top)), Threads{}, Double{}, Watch{},
                       Neighbours{.skin = 0.1, .finer = 1, .window = 1});
 }
 double step()
