@@ -5,12 +5,12 @@
 #include <spate/boundary/open.hpp>
 #include <spate/integrator/runge_kutta2.hpp>
 #include <spate/kernel/cubic_spline.hpp>
+#include <spate/physics/measures.hpp>
 #include <spate/physics/physics.hpp>
 #include <spate/physics/smoothing.hpp>
 #include <spate/physics/sph/continuity.hpp>
 #include <spate/physics/sph/pressure_force.hpp>
 #include <spate/physics/sph/tait.hpp>
-#include <spate/physics/system.hpp>
 
 #include <cstdio>
 

@@ -28,7 +28,7 @@ struct Undivided {
     explicit Undivided(Alone) {}
     static constexpr Alone ranks() { return {}; }
 };
-// Of scenes that are cut over ranks: physics/migration.hpp.
+// What a System tells of its state is defined in physics/measures.hpp; what it does on many ranks, in physics/migration.hpp.
 template <int Dim, class T, class S, int Species, class R>
 class Decomposition;
 template <int Dim>
