@@ -28,12 +28,13 @@ struct Undivided {
     explicit Undivided(Alone) {}
     static constexpr Alone ranks() { return {}; }
 };
-// What a System tells of its state is defined in physics/measures.hpp; what it does on many ranks, in physics/migration.hpp.
+// Of scenes that are cut over ranks: physics/migration.hpp.
 template <int Dim, class T, class S, int Species, class R>
 class Decomposition;
 template <int Dim>
 class Shares;
 
+/// What it tells of its state is defined in physics/measures.hpp.
 template <class P, class B, class Workers, class Precision>
 class System {
 public:
