@@ -45,15 +45,9 @@ class BlockMemory {
     using T = scalar_t<V>;
     static constexpr auto values = std::size_t(Layout<Dim, S>::count);
     using Pairs = KeptPairs<T, int(values)>;
-    using Set = typename Pairs::Set;
-    static_assert(std::size_t(width<V>) <= 8 * sizeof(Set), "spate: a set has a bit for each lane");
+    static_assert(std::size_t(width<V>) <= 8 * sizeof(typename Pairs::Set), "spate: a set has a bit for each lane");
 
 public:
-    /// Where what is kept of the pairs of a row lies.
-    struct Place {
-        T const* from; ///< of those that touched
-        Set was, now;  ///< who touched, who does
-    };
     /// \param first, last  rows of the lists
     [[gnu::always_inline]] BlockMemory(Pairs& pairs, std::size_t block, std::size_t first, std::size_t last,
                                        Carry const& carry)
@@ -64,37 +58,32 @@ public:
         if (aside.size() < most) aside.resize(most);
         begin_ = to_ = aside.data();
     }
-    /// The next row; one without a pair that touches is not loaded.
-    [[gnu::always_inline]] Place next(unsigned touching)
-    {
-        const Place place{from_, *set_, Set(touching)};
-        from_ += Pairs::count(place.was) * values;
-        *set_++ = carry_.keep ? place.now : place.was;
-        return place;
-    }
-    /// What is kept of the pairs of a row.
-    [[gnu::always_inline]] auto load(Place const& place) const
+    /// The next row has no pair that touches.
+    [[gnu::always_inline]] void skip() { next(0); }
+    /// What is kept of the pairs of the next row.
+    [[gnu::always_inline]] auto load() const
     {
         Kept<Dim, V, S> kept;
         kept.record.elapsed = V(carry_.elapsed);
-        const SomeLanes<V> lanes(place.was);
-        const std::size_t each = Pairs::count(place.was);
+        const SomeLanes<V> lanes(*set_);
+        const std::size_t each = Pairs::count(*set_);
         for (const std::size_t ahead : {1024u, 1088u})
-            __builtin_prefetch(place.from + ahead / sizeof(T)); // [bytes]: the next block's
-        kept.each([&](V & v, int k)
-                      __attribute__((always_inline)) { v = lanes.load(place.from + std::size_t(k) * each); });
+            __builtin_prefetch(from_ + ahead / sizeof(T)); // [bytes]: the next block's
+        kept.each([&](V & v, int k) __attribute__((always_inline)) { v = lanes.load(from_ + std::size_t(k) * each); });
         return kept;
     }
-    /// ... and what will be, of the lanes that touch now; rows in their order.
-    [[gnu::always_inline]] void store(Kept<Dim, V, S>& kept, Place const& place)
+    /// ... and what will be, of the lanes that touch now.
+    [[gnu::always_inline]] void store(Kept<Dim, V, S>& kept, unsigned touching)
     {
-        if (!carry_.keep) return;
-        if (carry_.reach != 1) go_on(kept, place);
-        const SomeLanes<V> lanes(place.now);
-        const std::size_t each = Pairs::count(place.now);
-        kept.each([&](V const& v, int k)
-                      __attribute__((always_inline)) { lanes.store(to_ + std::size_t(k) * each, v); });
-        to_ += each * values;
+        if (carry_.keep) {
+            if (carry_.reach != 1) go_on(kept);
+            const auto now = std::size_t(std::popcount(touching));
+            const SomeLanes<V> lanes(touching);
+            kept.each([&](V const& v, int k)
+                          __attribute__((always_inline)) { lanes.store(to_ + std::size_t(k) * now, v); });
+            to_ += now * values;
+        }
+        next(touching);
     }
     /// All rows are done.
     [[gnu::always_inline]] void finish()
@@ -106,21 +95,32 @@ public:
     }
 
 private:
-    [[gnu::noinline]] void go_on(Kept<Dim, V, S>& kept, Place const& place) const
+    [[gnu::always_inline]] void next(unsigned touching)
     {
-        const SomeLanes<V> lanes(place.was);
-        const std::size_t each = Pairs::count(place.was);
+        from_ += Pairs::count(*set_) * values;
+        if (carry_.keep) *set_ = typename Pairs::Set(touching);
+        ++set_;
+    }
+    [[gnu::noinline]] void go_on(Kept<Dim, V, S>& kept)
+    {
+        const SomeLanes<V> lanes(*set_);
+        const std::size_t each = Pairs::count(*set_);
         kept.each([&](V & v, int k) __attribute__((always_inline)) {
-            const V was = lanes.load(place.from + std::size_t(k) * each);
+            const V was = lanes.load(from_ + std::size_t(k) * each);
             v = was + carry_.reach * (v - was);
         });
     }
     Pairs& pairs_;
     std::size_t block_;
-    Set* set_;
+    typename Pairs::Set* set_;
     T const* from_;
     T *begin_, *to_; ///< aside
     Carry carry_;
+};
+/// Nothing is kept.
+struct NoMemory {
+    static void skip() {}
+    static void finish() {}
 };
 } // namespace detail
 

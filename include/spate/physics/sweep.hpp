@@ -81,91 +81,60 @@ template <class V, class I, class Tuple, class Ri, class Ui, class A, class Src>
     scalar_t<V> const* base = source.packed.data.data();
     std::int32_t const* const index = lists.index.data();
     const auto end = std::size_t(lists.begin[block + 1]) * std::size_t(width<V>);
+    using Memory = std::conditional_t<Src::Kept::size == 0, NoMemory, BlockMemory<I::dim, V, typename Src::Kept>>;
+    auto memory = [&]() __attribute__((always_inline))
+    {
+        if constexpr (Src::Kept::size == 0) return Memory{};
+        else
+            return Memory((*source.memory)[cell], block, std::size_t(lists.begin[block]),
+                          std::size_t(lists.begin[block + 1]), source.carry);
+    }
+    ();
     A mine = sums; // a copy in registers: g++ would store sums to the stack with each pack
     for (auto at = std::size_t(lists.begin[block]) * std::size_t(width<V>); at != end; at += std::size_t(width<V>)) {
         ask_for_records<I, V, L>(base, lists.index, at);
         const auto rj = gathered<V>(base, index + at, L{});
         constexpr auto terms = std::make_index_sequence<std::tuple_size_v<Tuple>>{};
-        if (!may_meet<I>(interaction, ri, ui, rj, uj)) continue;
+        if (!may_meet<I>(interaction, ri, ui, rj, uj)) {
+            memory.skip();
+            continue;
+        }
         const auto ij = pair_of<I, V>(interaction, ri, ui, rj, uj);
         if constexpr (requires { ij.mask; })
-            if (!spate::any(ij.mask)) continue; // qualified: xsimd has one too
-        apply_all<Src::terms>(all, ri, ui, rj, uj, mine, ij, terms);
-    }
-    sums = mine;
-}
-/// What the picked terms read of the other particle.
-template <Mask terms, class... T, std::size_t... t>
-constexpr auto read_of_other(std::tuple<T...> const*, std::index_sequence<t...>)
-{
-    auto one = []<std::size_t k, class X>(std::integral_constant<std::size_t, k>, X const*) {
-        if constexpr (picked<terms, k>) return reads_j<X>();
-        else return Fields<>{};
-    };
-    return (Fields<>{} | ... | one(std::integral_constant<std::size_t, t>{}, static_cast<T const*>(nullptr)));
-}
-/// The neighbours of one block of targets in one source, where terms keep something of a pair: first all pairs, then the terms
-/// on those that touch. What waits for its own root in one row and what does in the next are then near enough to each other
-/// that a processor runs them side by side.
-template <class V, class I, class Tuple, class Ri, class Ui, class A, class Src>
-[[gnu::always_inline]] inline void over_kept(I const& interaction, Tuple const& all, Ri const& ri, Ui const& ui,
-                                             A& sums, Src const& source, std::size_t cell, std::size_t block)
-{
-    using L = typename Src::L;
-    constexpr auto each = std::make_index_sequence<std::tuple_size_v<Tuple>>{};
-    using Other =
-        Record<I::dim, V, Set<read_of_other<Src::terms>(static_cast<Tuple const*>(nullptr), each) & L::fields>>;
-    using Memory = BlockMemory<I::dim, V, typename Src::Kept>;
-    const auto uj = source.particles.template uniforms<V>();
-    using Ij = decltype(pair_of<I, V>(interaction, ri, ui, gathered<V>(nullptr, nullptr, L{}), uj));
-    struct Row {
-        Ij ij;
-        Other rj;
-        typename Memory::Place place;
-    };
-    static thread_local std::vector<Row> rows;
-    auto const& lists = source.lists.of_cell(cell);
-    scalar_t<V> const* const base = source.packed.data.data();
-    std::int32_t const* const index = lists.index.data();
-    const auto begin = std::size_t(lists.begin[block]), end = std::size_t(lists.begin[block + 1]);
-    Memory memory((*source.memory)[cell], block, begin, end, source.carry);
-    if (rows.size() <= end - begin) rows.resize(end - begin + 1);
-    Row* touching = rows.data(); // beyond the last
-    for (std::size_t row = begin; row != end; ++row) {
-        const std::size_t at = row * std::size_t(width<V>);
-        ask_for_records<I, V, L>(base, lists.index, at);
-        const auto rj = gathered<V>(base, index + at, L{});
-        const auto ij = pair_of<I, V>(interaction, ri, ui, rj, uj);
-        touching->ij = ij;
-        for_each(
-            Other::fields, [&](auto f) __attribute__((always_inline)) { touching->rj[f] = rj[f]; });
-        unsigned who = (1u << width<V>)-1;
-        if constexpr (requires { ij.mask; }) who = bits(ij.mask);
-        touching->place = memory.next(who);
-        touching += who != 0;
-    }
-    // Copies: nothing that the loop writes can be one of them, so that what is uniform is computed before it.
-    const Ri of_i = ri;
-    const Ui uniform_i = ui;
-    const auto uniform_j = uj;
-    const Tuple terms = all;
-    A mine = sums;
-    for (Row const* row = rows.data(); row != touching; ++row) {
-        auto kept = memory.load(row->place);
-        apply_all<Src::terms>(terms, of_i, uniform_i, row->rj, uniform_j, mine, row->ij, each, &kept.record);
-        memory.store(kept, row->place);
+            if (!spate::any(ij.mask)) { // qualified: xsimd has one too
+                memory.skip();
+                continue;
+            }
+        if constexpr (Src::Kept::size == 0) apply_all<Src::terms>(all, ri, ui, rj, uj, mine, ij, terms);
+        else {
+            auto kept = memory.load();
+            apply_all<Src::terms>(all, ri, ui, rj, uj, mine, ij, terms, &kept.record);
+            if constexpr (requires { ij.mask; }) memory.store(kept, bits(ij.mask));
+            else memory.store(kept, (1u << width<V>)-1);
+        }
     }
     memory.finish();
     sums = mine;
+}
+/// What pairs read of both sides, and the records of a species hold.
+template <class I, class Src, class... T, std::size_t... t>
+constexpr auto read_of_records(std::tuple<T...> const*, std::index_sequence<t...>)
+{
+    auto one = []<std::size_t k, class X>(std::integral_constant<std::size_t, k>, X const*) {
+        if constexpr (picked<Src::terms, k>) return reads_j<X>();
+        else return Fields<>{};
+    };
+    return (I::reads | ... | one(std::integral_constant<std::size_t, t>{}, static_cast<T const*>(nullptr))) &
+           Src::L::fields;
 }
 /// Targets that lie one after the other. What their records hold of them is taken from there, where the species meets
 /// itself: neighbours bring these into the cache.
 template <class V, class I, class Tuple, class Target, class P, class Src, class... More>
 [[gnu::always_inline]] inline auto targets_at(P const& particles, std::int32_t first, Src const& source, More const&...)
 {
-    constexpr auto each = std::make_index_sequence<std::tuple_size_v<Tuple>>{};
-    using Recorded = Set<(I::reads | read_of_other<Src::terms>(static_cast<Tuple const*>(nullptr), each)) &
-                         decltype(Src::L::fields){} & Target{}>;
+    using Recorded = Set<read_of_records<I, Src>(static_cast<Tuple const*>(nullptr),
+                                                 std::make_index_sequence<std::tuple_size_v<Tuple>>{}) &
+                         Target{}>;
     if constexpr (!Src::itself || !std::same_as<scalar_t<V>, typename P::real> || Recorded::size < 2)
         return particles.template record_at<V>(Target{}, first);
     else {
@@ -333,13 +302,7 @@ template <class V, Mask terms, class Sums, class Target, class I, class Tuple, c
             ();
             Record<P::dim, V, Sums> sums;
             clear(sums);
-            auto from = [&](auto const& one) __attribute__((always_inline))
-            {
-                if constexpr (std::remove_cvref_t<decltype(one)>::Kept::size == 0)
-                    detail::over<V>(interaction, all, ri, ui, sums, one, cell, block);
-                else detail::over_kept<V>(interaction, all, ri, ui, sums, one, cell, block);
-            };
-            (from(source), ...);
+            (detail::over<V>(interaction, all, ri, ui, sums, source, cell, block), ...);
             detail::with_itself<terms, V>(interaction, all, ri, ui, sums,
                                           std::make_index_sequence<std::tuple_size_v<Tuple>>{});
             const int lanes = std::min(targets - int(block) * width<V>, width<V>);
