@@ -1,42 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What users write themselves does what it says: a field with its rate, an integrator, a boundary and a backend, each the
 // smallest that the concepts allow, against exact solutions of the discrete equations.
-#include <spate/spate.hpp>
+#include "smallest.hpp"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 
-using namespace spate;
-
 namespace {
 
+using namespace smallest;
+
 constexpr double pi = std::numbers::pi;
-
-struct Temperature;
-inline constexpr struct TemperatureRate : ScalarField {
-    static constexpr std::string_view name = "temperature_rate", unit = "K/s";
-    using rate_of = Temperature;
-    static constexpr bool derived = true;
-} temperature_rate{};
-inline constexpr struct Temperature : ScalarField {
-    static constexpr std::string_view name = "temperature", unit = "K";
-    static constexpr Kind kind = Kind::drift;
-    using rates = Fields<TemperatureRate>;
-} temperature{};
-
-/// Heat conduction (Cleary & Monaghan 1999) at equal conductivity: dT_i/dt = sum_j 2 a V_j T_ij x_ij . grad W_ij / r^2.
-struct HeatConduction {
-    static constexpr Fields reads{temperature};
-    static constexpr Fields reads_j{mass, density};
-    static constexpr Fields adds{temperature_rate};
-    double a; // diffusivity [m^2/s]
-    void operator()(auto& i, auto const& j, auto const& ij) const
-    {
-        const auto V_j = j[mass] / j[density];
-        i[temperature_rate] += 2 * a * V_j * ij.over_r2 * (i[temperature] - j[temperature]) * ij.x.dot(ij.grad_w);
-    }
-};
 
 /// A spring to the origin: dv/dt = -omega^2 x.
 struct Tether {
@@ -44,53 +19,6 @@ struct Tether {
     static constexpr Fields adds{acceleration};
     double omega; // [1/s]
     void operator()(auto& i) const { i[acceleration] -= omega * omega * i[position]; }
-};
-
-struct DriftKick { // x+ = x + dt v; v+ = v + dt a(x+)
-    static constexpr const char* name = "drift_kick";
-    static constexpr int order = 1, evaluations = 1;
-    static constexpr bool saves = false;
-    static constexpr double imaginary_limit = 2, real_limit = 2;
-    static constexpr double ahead_velocity = 1, ahead_acceleration = 0; // rates are taken at x + dt v
-    static double growth(double) { return 0; }
-    void step(auto& s, double dt) const
-    {
-        s.rates(s.driven);
-        s.advance(s.drifting, dt);
-        s.rates(s.kicked);
-        s.advance(s.kicked, dt);
-    }
-};
-
-struct Nowhere {
-    static constexpr bool markers = false;
-    template <int Dim>
-    Edges<Dim> edges() const
-    {
-        return Edges<Dim>(Edge::open);
-    }
-    template <int Dim>
-    std::optional<Box<Dim>> box() const
-    {
-        return {};
-    }
-    template <int Dim>
-    double beyond(Vec<Dim, double> const&) const
-    {
-        return 0;
-    }
-    double thickness(double) const { return 0; }
-    void check(double) const {}
-};
-struct Backwards { // tasks from the last to the first
-    static constexpr const char* name = "backwards";
-    int cell = 0;
-    int threads() const { return 1; }
-    void check() const {}
-    void for_each(std::size_t tasks, auto const& run) const
-    {
-        while (tasks-- > 0) run(tasks);
-    }
 };
 
 } // namespace
