@@ -97,7 +97,7 @@ TEST(LongColumnCollapse, RunsOutByAPowerOfTheHeight)
     const models::Case c("V54", "column of discs", across);
     auto table = models::results("column_collapse.csv", "aspect,runout,height");
     double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
-    for (double stacked : {4.0, 5.5, 7.5, 10.0, 13.5}) {
+    for (double stacked : {4.0, 5.5, 7.5, 10.0, 13.5, 19.0, 27.0}) {
         const auto heap = collapse(stacked);
         table << heap.aspect << ',' << heap.runout << ',' << heap.height << '\n';
         std::printf("a %.2f: runout %.2f, height %.2f widths\n", heap.aspect, heap.runout, heap.height);
