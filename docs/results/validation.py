@@ -232,7 +232,7 @@ def grains():
         axes[1].loglog(a, [3.25 * x**0.7 for x in a], "k-", lw=0.8, label="3.25 a^0.7, Staron & Hinch 2005")
         axes[1].loglog(a, [3.80 * x**0.73 for x in a], "k--", lw=0.8, label="3.80 a^0.73, rods, Nguyen et al. 2015")
         axes[1].set(xlabel="height / width", ylabel="runout / width", title="column of discs")
-        axes[1].set(xticks=range(3, 11), yticks=(7, 10, 15, 20, 25))
+        axes[1].set(xticks=(3, 4, 6, 8, 10, 15, 20), yticks=(7, 10, 15, 20, 30, 40))
         axes[1].minorticks_off()
         for axis in (axes[1].xaxis, axes[1].yaxis):
             axis.set_major_formatter("{x:.0f}")
