@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A column of discs with friction falls on a floor with friction: V54 of the validation plan. Tall columns (height over
 // width a above 3) run out by a power of a, 2/3 in a channel (Lube et al. 2005) and 0.7 for discs (Staron & Hinch 2005).
-// Up to ten widths the power of discs is nearer to 1, that of low columns: docs/results/granular.
+// With few discs across, the power is nearer to 1, that of low columns: docs/results/granular.
 #include "models/case.hpp"
 #include "models/results.hpp"
 #include "oracle/dice.hpp"
@@ -21,9 +21,9 @@ namespace {
 using namespace spate;
 
 constexpr double r = 0.01, m = 0.1, g = 9.81; // largest radius [m], mass of a grain of it [kg], gravity [m/s^2]
-constexpr int across = 32; // grains in the width of a column: with 16 the tip of low heaps comes loose
+constexpr int across = 64; // grains in the width of a column: with 16 and 32 the tip of low heaps comes loose
 constexpr double wide = across * 2 * r;
-constexpr LinearSpring spring{.k = 1e6}; // the weight of 200 grains presses the lowest by a fiftieth of their radius
+constexpr LinearSpring spring{.k = 4e6}; // the weight of 1200 grains presses the lowest by a fortieth of their radius
 constexpr Dashpot dashpot{.e = 0.5};
 constexpr Friction friction{.mu = 0.5};
 
@@ -40,7 +40,7 @@ double step()
 struct Collapse {
     double aspect, runout, height; ///< all over the width of the column at rest
 };
-/// A stack settles between two walls; then the one on the right is gone, until the heap has had 6 free falls to rest.
+/// A stack settles between two walls; then the one on the right is gone, until the heap has had 4.5 free falls to rest.
 Collapse collapse(double stacked)
 {
     const auto rows = int(stacked * across);
@@ -64,7 +64,7 @@ Collapse collapse(double stacked)
         const auto k = heap.add(c.at(position, i));
         heap.particles().put(radius, k, c.at(radius, i)), heap.particles().put(mass, k, c.at(mass, i));
     }
-    heap.run({.until = 6 * std::sqrt(2 * top_at / g), .dt = step()});
+    heap.run({.until = 4.5 * std::sqrt(2 * top_at / g), .dt = step()});
     // The heap is who is in touch with it (a tenth of a radius apart at most): others roll on by themselves, as discs do.
     auto const& p = heap.particles();
     std::vector<std::size_t> reached{0}, left;
@@ -97,7 +97,7 @@ TEST(LongColumnCollapse, RunsOutByAPowerOfTheHeight)
     const models::Case c("V54", "column of discs", across);
     auto table = models::results("column_collapse.csv", "aspect,runout,height");
     double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
-    for (double stacked : {4.0, 5.5, 7.5, 10.0, 13.5, 19.0, 27.0}) {
+    for (double stacked : {4.0, 7.5, 13.5, 27.0}) {
         const auto heap = collapse(stacked);
         table << heap.aspect << ',' << heap.runout << ',' << heap.height << '\n';
         std::printf("a %.2f: runout %.2f, height %.2f widths\n", heap.aspect, heap.runout, heap.height);
@@ -107,7 +107,7 @@ TEST(LongColumnCollapse, RunsOutByAPowerOfTheHeight)
     const double exponent = (n * sxy - sx * sy) / (n * sxx - sx * sx);
     std::printf("exponent %.3f, prefactor %.2f\n", exponent, std::exp((sy - exponent * sx) / n));
     c.at_least("exponent of the runout", exponent, 0.6);
-    c.known_gap("exponent of the runout", exponent, "V54 exponent of the runout");
+    c.at_most("exponent of the runout", exponent, 0.75);
 }
 
 } // namespace
