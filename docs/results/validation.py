@@ -228,7 +228,7 @@ def grains():
         axes[0].set(xlabel="t / tau", ylabel="T / T0", title="granular gas, e = 0.9")
     if column is not None:
         a = sorted(column["aspect"])
-        axes[1].loglog(column["aspect"], column["runout"], "o", mfc="none", label="discs, 32 across")
+        axes[1].loglog(column["aspect"], column["runout"], "o", mfc="none", label="discs, 64 across")
         axes[1].loglog(a, [3.25 * x**0.7 for x in a], "k-", lw=0.8, label="3.25 a^0.7, Staron & Hinch 2005")
         axes[1].loglog(a, [3.80 * x**0.73 for x in a], "k--", lw=0.8, label="3.80 a^0.73, rods, Nguyen et al. 2015")
         axes[1].set(xlabel="height / width", ylabel="runout / width", title="column of discs")
