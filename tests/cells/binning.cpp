@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <spate/backend/threads.hpp>
 #include <spate/cells/binning.hpp>
 
 #include <gtest/gtest.h>
@@ -98,6 +99,37 @@ TEST(Binning, StopsAtWhatNoIndexCanName)
     }
     p.put(position, 2, {{std::numeric_limits<double>::quiet_NaN(), 0}});
     EXPECT_THROW(bins.sort(p, grid), IndexOverflow);
+}
+
+TEST(Binning, IsTheSameByManyThreads)
+{
+    const Grid<3> grid(Box<3>{{0, 0, 0}, {1, 1, 1}}, Edges<3>(Edge::open), 0.5, 4, 3);
+    for (const std::size_t n : {0u, 1u, 7u, 20000u}) {
+        auto alone = points<3>(n, -3, 4, 5), shared = alone;
+        Binning<3> a, b;
+        a.sort(alone, grid);
+        b.sort(shared, grid, InParts{Threads{3}});
+        EXPECT_EQ(alone.id(), shared.id());
+        ASSERT_EQ(a.cells(), b.cells());
+        for (std::size_t bin = 0; bin <= a.cells() * std::size_t(grid.bins_of_cell()); ++bin)
+            ASSERT_EQ(a.first(bin), b.first(bin));
+        for (std::size_t i = 0; i < n; ++i) ASSERT_EQ(alone.at(position, i), shared.at(position, i));
+    }
+}
+
+TEST(Binning, NamesTheFirstThatNoIndexCanName)
+{
+    const Grid<2> grid(Box<2>{{0, 0}, {1, 1}}, Edges<2>(Edge::open), 1, 1, 1);
+    auto p = points<2>(5000, 0, 1, 1);
+    for (const std::size_t i : {0u, 700u, 4999u}) p.put(position, i, {{0, 1e9 + double(i)}});
+    Binning<2> bins;
+    try {
+        bins.sort(p, grid, InParts{Threads{3}});
+        FAIL() << "an index has overflowed in silence";
+    }
+    catch (IndexOverflow const& e) {
+        EXPECT_EQ(e.facts().particle, 0);
+    }
 }
 
 /// Each particle near a periodic face has one image for each shift that brings it beside the domain, and no other.

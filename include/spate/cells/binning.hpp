@@ -50,11 +50,12 @@ template <int Dim>
 class Binning {
 public:
     /// Sorts the particles by (cell, bin, id) of their position, or of another field, and finds the occupied cells.
-    template <class P, Field F = Position>
-    void sort(P& p, Grid<Dim> const& grid, F where = {})
+    /// \param in_parts  how loops are shared: core/in_parts.hpp
+    template <class P, class Parts = InOnePart, Field F = Position>
+    void sort(P& p, Grid<Dim> const& grid, Parts const& in_parts = {}, F where = {})
     {
         using Places = spate::Places<Dim, typename P::real>;
-        p.permute(order_of(Places::of(p, where), p.id(), grid));
+        p.permute(order_of(Places::of(p, where), p.id(), grid, in_parts), in_parts);
         make_images(Places::of(p, where), grid);
     }
 
@@ -113,52 +114,85 @@ private:
             cell[std::size_t(c)] = std::int32_t(key & ((1u << bits) - 1)) - (1 << (bits - 1));
         return cell;
     }
-    /// The particles by (cell, bin, id), and the cells that they occupy.
+    /// The particles by (cell, bin, id), and the cells that they occupy. Who is in which cell is counted by one thread, in
+    /// their order, in which most have the cell of the one before; all else by cells or by particles.
     template <class T>
     std::vector<std::int32_t> order_of(Places<Dim, T> const& places, std::vector<std::uint32_t> const& id,
-                                       Grid<Dim> const& grid)
+                                       Grid<Dim> const& grid, auto const& in_parts)
     {
-        auto const& x = places.x;
         const std::size_t n = places.size;
         bins_of_cell_ = grid.bins_of_cell();
-        std::vector<std::uint64_t> key(n); // of the cell, then the number of the bin
-        std::vector<std::int32_t> local(n), order(n);
-        for (std::size_t i = 0; i < n; ++i) {
-            Index<Dim> cell;
-            std::int32_t in_cell = 0;
-            for (int c = Dim - 1; c >= 0; --c) {
-                const std::int32_t bin = grid.bin(c, double(x[std::size_t(c)][i]));
-                cell[std::size_t(c)] = grid.cell_of(c, bin);
-                in_cell = in_cell * grid.bins_of_cell(c) + (bin - cell[std::size_t(c)] * grid.bins_of_cell(c));
-            }
-            key[i] = packed(cell);
-            if (key[i] == overflow) {
-                StopFacts f = facts(places, id, i);
-                f.quantity = "the cell index of its position";
-                f.limit = double(1 << (bits - 1)), f.value = std::numeric_limits<double>::infinity();
-                throw IndexOverflow(f);
-            }
-            local[i] = in_cell;
+        std::vector<std::uint64_t> key(n); // of the cell
+        std::vector<std::int32_t> local(n), in_cell(n), order(n);
+        in_parts(n, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) find_bin(places, grid, i, key[i], local[i]);
+        });
+        const auto beyond = std::find(key.begin(), key.end(), overflow);
+        if (beyond != key.end()) {
+            StopFacts f = facts(places, id, std::size_t(beyond - key.begin()));
+            f.quantity = "the cell index of its position";
+            f.limit = double(1 << (bits - 1)), f.value = std::numeric_limits<double>::infinity();
+            throw IndexOverflow(f);
         }
         find_cells(key);
-        first_.assign(cells_.size() * std::size_t(bins_of_cell_) + 1, 0);
-        std::uint64_t last = overflow;
-        std::int32_t c = -1;
-        for (std::size_t i = 0; i < n; ++i) {
-            if (key[i] != last) c = find(key[i]), last = key[i];
-            key[i] = std::size_t(c) * std::size_t(bins_of_cell_) + std::size_t(local[i]);
-            ++first_[key[i] + 1];
-        }
-        for (std::size_t b = 1; b < first_.size(); ++b) first_[b] += first_[b - 1];
-        for (std::size_t i = 0; i < n; ++i) order[std::size_t(first_[key[i]]++)] = std::int32_t(i);
-        for (std::size_t b = first_.size() - 1; b > 0; --b) first_[b] = first_[b - 1]; // where bins began
-        first_[0] = 0;
-        auto earlier = [&](std::int32_t a, std::int32_t d) { return id[std::size_t(a)] < id[std::size_t(d)]; };
-        for (std::size_t b = 0; b + 1 < first_.size(); ++b) {
-            auto *const begin = order.data() + first_[b], *const end = order.data() + first_[b + 1];
-            if (end - begin > 1 && !std::is_sorted(begin, end, earlier)) std::sort(begin, end, earlier);
-        }
+        first_.resize(cells_.size() * std::size_t(bins_of_cell_) + 1);
+        std::vector<std::int32_t> begin(cells_.size() + 1, 0);
+        for_each_cell(key, [&](std::size_t cell, std::size_t) { ++begin[cell + 1]; });
+        for (std::size_t c = 1; c < begin.size(); ++c) begin[c] += begin[c - 1];
+        auto next = begin;
+        for_each_cell(key,
+                      [&](std::size_t cell, std::size_t i) { in_cell[std::size_t(next[cell]++)] = std::int32_t(i); });
+        first_.back() = std::int32_t(n);
+        in_parts(cells_.size(), [&](std::size_t c, std::size_t last) {
+            for (; c < last; ++c)
+                order_cell(first_.data() + c * std::size_t(bins_of_cell_), begin[c], begin[c + 1], local, id, in_cell,
+                           order);
+        });
         return order;
+    }
+    template <class T>
+    static void find_bin(Places<Dim, T> const& places, Grid<Dim> const& grid, std::size_t i, std::uint64_t& key,
+                         std::int32_t& local)
+    {
+        Index<Dim> cell;
+        local = 0;
+        for (int c = Dim - 1; c >= 0; --c) {
+            const std::int32_t bin = grid.bin(c, double(places.x[std::size_t(c)][i]));
+            cell[std::size_t(c)] = grid.cell_of(c, bin);
+            local = local * grid.bins_of_cell(c) + (bin - cell[std::size_t(c)] * grid.bins_of_cell(c));
+        }
+        key = packed(cell);
+    }
+    /// f(number of its cell, i) for each particle i.
+    void for_each_cell(std::vector<std::uint64_t> const& key, auto const& f) const
+    {
+        std::uint64_t last = overflow;
+        std::size_t cell = 0;
+        for (std::size_t i = 0; i < key.size(); ++i) {
+            if (key[i] != last) last = key[i], cell = std::size_t(find(last));
+            f(cell, i);
+        }
+    }
+    /// The particles in_cell[begin] to in_cell[end] of a cell by (bin, id), and where its bins begin.
+    void order_cell(std::int32_t* bin, std::int32_t begin, std::int32_t end, std::vector<std::int32_t> const& local,
+                    std::vector<std::uint32_t> const& id, std::vector<std::int32_t> const& in_cell,
+                    std::vector<std::int32_t>& order) const
+    {
+        const auto bins = std::size_t(bins_of_cell_);
+        std::fill_n(bin, bins, 0);
+        for (std::int32_t k = begin; k < end; ++k) ++bin[local[std::size_t(in_cell[std::size_t(k)])]];
+        std::int32_t next = begin;
+        for (std::size_t b = 0; b < bins; ++b) next = bin[b] += next; // where bins end
+        for (std::int32_t k = end; k-- > begin;) {
+            const std::int32_t i = in_cell[std::size_t(k)];
+            order[std::size_t(--bin[local[std::size_t(i)]])] = i;
+        }
+        auto earlier = [&](std::int32_t a, std::int32_t d) { return id[std::size_t(a)] < id[std::size_t(d)]; };
+        for (std::size_t b = 0; b < bins; ++b) {
+            auto* const from = order.data() + bin[b];
+            auto* const to = order.data() + (b + 1 < bins ? bin[b + 1] : end);
+            if (to - from > 1 && !std::is_sorted(from, to, earlier)) std::sort(from, to, earlier);
+        }
     }
     /// The distinct keys, in order, and an open-addressing table from key to number.
     void find_cells(std::vector<std::uint64_t> const& key)

@@ -73,7 +73,7 @@ private:
         [[nodiscard]] std::size_t size() const { return ids.size(); }
         [[nodiscard]] std::vector<std::uint32_t> const& id() const { return ids; }
         [[nodiscard]] auto const& column(Position) const { return x; }
-        void permute(std::vector<std::int32_t> const& by)
+        void permute(std::vector<std::int32_t> const& by, InOnePart)
         {
             order = by;
             reorder(ids);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "spate/core/array.hpp"
+#include "spate/core/in_parts.hpp"
 #include "spate/core/record.hpp"
 
 #include <algorithm>
@@ -23,11 +24,10 @@ Uniform(F, double) -> Uniform<F>;
 
 namespace detail { // of one column: compiled once, not for each field
 template <class T>
-[[gnu::noinline]] void permute(Array<T>& a, std::vector<std::int32_t> const& order, Array<T>& room)
+[[gnu::noinline]] void permute(T const* from, std::vector<std::int32_t> const& order, T* to, std::size_t first,
+                               std::size_t last)
 {
-    room.resize(a.size()); // with the padding
-    for (std::size_t k = 0; k < order.size(); ++k) room[k] = a[std::size_t(order[k])];
-    a.swap(room);
+    for (std::size_t k = first; k < last; ++k) to[k] = from[std::size_t(order[k])];
 }
 template <class T>
 [[gnu::noinline]] void fill_from(Array<T>& a, std::size_t first, T value)
@@ -220,18 +220,26 @@ public:
         next_id_ = std::max(next, id_.empty() ? 0 : *std::max_element(id_.begin(), id_.end()) + 1);
     }
 
-    /// Particle k becomes what particle order[k] was.
-    void permute(std::vector<std::int32_t> const& order)
+    /// Particle k becomes what particle order[k] was. \param in_parts  how loops are shared: core/in_parts.hpp
+    void permute(std::vector<std::int32_t> const& order, auto const& in_parts)
     {
-        Array<T> t;
+        const auto one = [&](auto& a, auto& room) {
+            room.resize(a.size()); // with the padding
+            in_parts(order.size(), [&](std::size_t first, std::size_t last) {
+                detail::permute(a.data(), order, room.data(), first, last);
+            });
+            a.swap(room);
+        };
+        Array<T> room;
         for_each(fields, [&](auto f) {
-            for (auto& a : column(f)) detail::permute(a, order, t);
+            for (auto& a : column(f)) one(a, room);
         });
-        std::vector<std::uint32_t> id(order.size());
-        for (std::size_t k = 0; k < order.size(); ++k) id[k] = id_[std::size_t(order[k])];
-        id_ = std::move(id);
+        std::vector<std::uint32_t> ids;
+        one(id_, ids);
+        id_.resize(order.size());
         pad();
     }
+    void permute(std::vector<std::int32_t> const& order) { permute(order, InOnePart{}); }
     /// Only particles order[0], order[1], ... remain.
     void keep(std::vector<std::int32_t> const& order)
     {

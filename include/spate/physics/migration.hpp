@@ -33,7 +33,7 @@ void System<P, B, Workers, Precision>::build_again(bool local, OfParticles skin)
     each_species([&](auto s) {
         auto& x = species<s()>();
         const auto patch = patches<s()>();
-        x.bins.sort(x.particles, grid_, built<s()>);
+        x.bins.sort(x.particles, grid_, InParts{backend_}, built<s()>);
         if (!local) return;
         auto& mine = of_patch[std::size_t(s())];
         mine.assign(x.bins.cells() * Skins<dim>::patches_of_cell(grid_), neighbours_.closed_in());

@@ -183,7 +183,7 @@ public:
             each_species([&](auto s) {
                 auto& x = species<s()>();
                 if (s() != 0 && sorted_markers_ && !M::moves) return;
-                x.bins.sort(x.particles, grid_);
+                x.bins.sort(x.particles, grid_, InParts{backend_});
                 remember_places<s()>();
             });
         });
@@ -350,7 +350,7 @@ public:
         each_species([&](auto s) {
             auto& x = species<s()>();
             swap_with_built(x.particles);
-            x.bins.sort(x.particles, grid_);
+            x.bins.sort(x.particles, grid_, InParts{backend_});
         });
         sorted_markers_ = true;
         choose_skins(true);
@@ -1480,7 +1480,13 @@ private:
     {
         auto& p = species<s>().particles;
         if constexpr (ParticlesOf<s>::template has<BuildPosition>)
-            for (int c = 0; c < dim; ++c) p.column(build_position)[std::size_t(c)] = p.column(position)[std::size_t(c)];
+            for (std::size_t c = 0; c < std::size_t(dim); ++c) {
+                auto const& from = p.column(position)[c];
+                auto& to = p.column(build_position)[c];
+                InParts{backend_}(from.size(), [&](std::size_t first, std::size_t last) {
+                    std::copy(from.data() + first, from.data() + last, to.data() + first);
+                });
+            }
     }
     [[gnu::cold]] void make_room()
     {
