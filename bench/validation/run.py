@@ -97,7 +97,7 @@ def main():
     options.add_argument("--only", default="", metavar="V15,...", help="only these cases")
     options.add_argument("--filter", default="*", metavar="PATTERN", help="only tests of this name, such as 'LongTaylor*'")
     options.add_argument("--page-only", action="store_true", help="write the table and draw again from what was measured")
-    options.add_argument("--at-most", type=float, default=7200, help="seconds that a test may take (%(default).0f)")
+    options.add_argument("--at-most", type=float, default=14400, help="seconds that a test may take (%(default).0f)")
     options.add_argument("--build", type=Path, default=root / "build" / "gcc" / "tests", help="folder of test_models, ...")
     options.add_argument("--into", type=Path, default=root / "docs" / "results", help="what is written (%(default)s)")
     args = options.parse_args()
